@@ -39,6 +39,7 @@ fn flat_layers_are_said_where_they_are_too_soft() {
     let tie = "links = [{ between = ['a_top', 'b_bottom'], tie = true }]";
     let plate: Stack = &[("a", 0.01, 1, false)];
     let block: Stack = &[("a", 0.1, 1, false), ("b", 0.01, 1, true)];
+    let laminated: Stack = &[("a", 0.01, 1, false), ("b", 0.01, 1, true)];
     for (name, stack, materials, more, told) in [
         ("held", plate, ["steel", ""], fixed.to_owned(), true),
         ("on stiff springs", plate, ["steel", ""], springs("1e15"), true),
@@ -94,8 +95,15 @@ fn flat_layers_are_said_where_they_are_too_soft() {
             format!("{fixed}\n{}", ply([2e11, 2e11, 1e9], [8e10, 1e8, 1e8])),
             false,
         ),
+        (
+            "on a laminate that is held",
+            laminated,
+            ["ply", "POM"],
+            format!("{fixed}\n{}", ply([7e10, 7e10, 9e9], [5e9, 4e9, 4e9])),
+            true,
+        ),
         ("as high as its edges", &[("a", 0.1, 1, false)], ["steel", ""], fixed.to_owned(), false),
-    ] as [(&str, Stack, [&str; 2], String, bool); 13]
+    ] as [(&str, Stack, [&str; 2], String, bool); 14]
     {
         write(&folder, stack);
         let parts = ["a", "b"].into_iter().zip(materials).filter(|(_, material)| !material.is_empty());

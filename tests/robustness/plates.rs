@@ -60,9 +60,10 @@ fn thin_plates_are_told() {
             [0.1, 0.1, 0.003],
             [8, 8, 1],
             60.0,
-            "up to 4 times as long as the plate is thick, 60 degrees off square,",
+            "up to 4.2 times as long as the plate is thick, 60 degrees off square,",
         ),
-        ("thicker", [0.1, 0.1, 0.002], [8, 8, 1], 0.0, ""),
+        ("oblong", [0.096, 0.048, 0.001], [8, 8, 1], 0.0, "up to 8.5 times"),
+        ("thicker", [0.1, 0.1, 0.0025], [8, 8, 1], 0.0, ""),
         ("thick and askew", [0.1, 0.1, 0.0125], [8, 8, 2], 60.0, ""),
         ("beam", [0.1, 0.001, 0.001], [8, 1, 1], 0.0, ""),
     ];

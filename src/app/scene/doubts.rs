@@ -17,7 +17,7 @@ use crate::fe::mesh::{ElementKind, Mesh};
 use crate::fe::modal::pieces_at;
 use crate::fe::model::HousingModel;
 use crate::numerics::{Brief, Unwatched};
-use crate::report::mass_in_words;
+use crate::report::{mass_in_words, significant};
 use crate::system::{BallLoad, BearingSetup, Equilibrium};
 use std::f64::consts::{FRAC_PI_2, PI};
 
@@ -147,8 +147,8 @@ fn housing_doubts(mesh: &Mesh, model: &HousingModel) -> Vec<String> {
             skew => format!(", {skew:.0} degrees off square,"),
         };
         format!(
-            "{} Hex8 are in thin plates, with edges up to {:.0} times as long as the plate is thick{} at element {} of part \"{}\": the frequencies of bending are too high where a wave spans few of them; give shorter edges, or mesh with second order ({order})",
-            found.elements, found.slenderness, skewed, found.tag, model.description.parts[found.part].group
+            "{} Hex8 are in thin plates, with edges up to {} times as long as the plate is thick{} at element {} of part \"{}\": the frequencies of bending are too high where a wave spans few of them; give shorter edges, or mesh with second order ({order})",
+            found.elements, significant(found.slenderness, 2), skewed, found.tag, model.description.parts[found.part].group
         )
     });
     let confined = model.confined().map(|found| {

@@ -9,7 +9,7 @@
 use super::stack::{Behind, Storey};
 use super::support::NodalSource;
 use super::{HousingElement, HousingModel};
-use crate::fe::element::continuum::LinearFormulation;
+use crate::fe::element::continuum::{ContinuumProperties, LinearFormulation};
 use nalgebra::Vector3;
 
 /// Longest edge of a held face over the height of the layer above it from which on the layer is told. A plate of steel,
@@ -46,12 +46,27 @@ pub struct FlatLayer {
 /// What may hold a node of a layer.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Hold {
-    /// Shear moduli of the stiffest element at it, and of the stiffest that is tied to it, Pa.
-    modulus: f64,
+    /// The two stiffest materials of elements at it and of those that are tied to it, by the first part of each, with how each
+    /// resists as a shear modulus, Pa.
+    stiffest: [(f64, usize); 2],
     /// Springs along the axes, N/m, with the shear modulus of what is at their other end, Pa.
     springs: Vec<(Vector3<f64>, f64)>,
     /// Its share of the faces of incompatible elements that stand on springs, m^2.
     area: f64,
+}
+
+impl Hold {
+    fn add(&mut self, (modulus, material): (f64, usize)) {
+        let [first, second] = &mut self.stiffest;
+        if modulus > first.0 {
+            if material != first.1 {
+                *second = *first;
+            }
+            *first = (modulus, material);
+        } else if material != first.1 && modulus > second.0 {
+            *second = (modulus, material);
+        }
+    }
 }
 
 /// A layer between faces, as its bubbles see it. All moduli are alike in an isotropic one.
@@ -63,6 +78,8 @@ pub(super) struct Ply {
     stretch: f64,
     /// Mean of its shear moduli, Pa.
     mean: f64,
+    /// First part of its material.
+    material: usize,
 }
 
 impl Ply {
@@ -106,6 +123,12 @@ impl HousingModel {
         self.properties[element.part].shear_modulus()
     }
 
+    /// The first part of the same material.
+    fn material(&self, part: usize) -> usize {
+        let same = |other: &ContinuumProperties| *other == self.properties[part];
+        self.properties.iter().position(same).unwrap_or(part)
+    }
+
     /// An element as a layer on a face, in the direction in which its bubbles make it softest.
     pub(super) fn ply(&self, element: &HousingElement, face: &[usize]) -> Ply {
         let (normal, properties) = (self.normal(face), &self.properties[element.part]);
@@ -114,29 +137,29 @@ impl HousingModel {
             let edge = self.at(to) - self.at(from);
             let along = (edge - normal * normal.dot(&edge)).try_normalize(0.0).unwrap_or_default();
             let [shear, stretch] = properties.layer_moduli(normal, along);
-            Ply { shear, stretch, mean: properties.shear_modulus() }
+            Ply { shear, stretch, mean: properties.shear_modulus(), material: self.material(element.part) }
         });
         plies.max_by(|a, b| (a.shear * b.stretch).total_cmp(&(b.shear * a.stretch))).unwrap_or_default()
     }
 
     pub(super) fn holds(&self) -> Vec<Hold> {
         let mut holds = vec![Hold::default(); self.coordinates.len()];
+        let moduli: Vec<f64> = self.properties.iter().map(ContinuumProperties::holding_modulus).collect();
         for element in self.elements.iter() {
-            for &node in self.elements.nodes(element) {
-                holds[node].modulus = holds[node].modulus.max(self.modulus(element));
-            }
+            let own = (moduli[element.part], self.material(element.part));
+            self.elements.nodes(element).iter().for_each(|&node| holds[node].add(own));
         }
-        let own: Vec<f64> = holds.iter().map(|hold| hold.modulus).collect();
+        let own: Vec<_> = holds.iter().map(|hold| hold.stiffest).collect();
         for (&node, tied) in &self.tied {
             for &other in &tied.foot.nodes {
-                holds[node].modulus = holds[node].modulus.max(own[other]);
-                holds[other].modulus = holds[other].modulus.max(own[node]);
+                own[other].into_iter().for_each(|own| holds[node].add(own));
+                own[node].into_iter().for_each(|own| holds[other].add(own));
             }
         }
         let d = self.dimension;
         for spring in &self.springs {
             let modulus = match spring.source {
-                NodalSource::Link(_) => spring.nodes.iter().map(|&node| own[node]).fold(0.0, f64::max),
+                NodalSource::Link(_) => spring.nodes.iter().map(|&node| own[node][0].0).fold(0.0, f64::max),
                 _ => f64::INFINITY,
             };
             for (row, &node) in spring.nodes.iter().enumerate() {
@@ -164,7 +187,8 @@ impl HousingModel {
         let normal = self.normal(face);
         let of_node = |node: usize, axis: usize| {
             let hold = &holds[node];
-            if self.fixed[node][axis].is_some() || (hold.modulus >= STIFFER * ply.stretch && hold.modulus > ply.mean) {
+            let is_stiff = |&(modulus, other): &(f64, usize)| other != ply.material && modulus >= STIFFER * ply.stretch;
+            if self.fixed[node][axis].is_some() || hold.stiffest.iter().any(is_stiff) {
                 return f64::INFINITY;
             }
             let springs = hold.springs.iter();
@@ -183,24 +207,27 @@ impl HousingModel {
     /// Longest edge of a face over the height of the layer that begins there; `None` if that is not flat.
     fn layer_flatness(&self, index: usize, face: &[usize], behind: &Behind, holds: &[Hold]) -> Option<f64> {
         let ply = self.ply(&self.elements.list[index], face);
-        let (held, more) = (self.held(face, ply, holds), ply.flatter());
-        let (mut sum, mut whole) = (0.0, 0.0); // of heights over the longest edge, and of heights
-        let told = |flat: f64, [sum, whole]: [f64; 2]| {
-            let limit = flat * (1.0 + OF_SHEAR * ply.shear / (whole * held)).sqrt();
-            (sum * limit < 1.0).then_some(1.0 / (more * sum))
+        let held = self.held(face, ply, holds);
+        // of heights over the longest edge, as isotropic layers and as they are, and of heights
+        let (mut sum, mut flat, mut whole) = (0.0, 0.0, 0.0);
+        let told = |limit: f64, [sum, flat, whole]: [f64; 3]| {
+            let limit = limit * (1.0 + OF_SHEAR * ply.shear / (whole * held)).sqrt();
+            (sum * limit < 1.0).then_some(1.0 / flat)
         };
         let goes_on = |storey: &Storey| STIFFER * self.modulus(&self.elements.list[storey.index]) > ply.mean;
         for (below, storey) in self.stack(index, face.to_vec(), behind).take_while(goes_on).enumerate() {
-            let [edge, height] = self.shape(&self.elements.list[storey.index], &storey.bottom);
-            (sum, whole) = (sum + height / (more * edge), whole + height);
+            let element = &self.elements.list[storey.index];
+            let [edge, height] = self.shape(element, &storey.bottom);
+            let more = self.ply(element, &storey.bottom).flatter();
+            (sum, flat, whole) = (sum + height / (more * edge), flat + height / edge, whole + height);
             if sum * FLAT_BETWEEN >= 1.0 || sum.is_nan() {
                 return None;
             }
             if self.held(&storey.top, ply, holds) >= ply.shear / whole {
-                return told(FLAT_BETWEEN, [sum, whole]).filter(|_| below > 0);
+                return told(FLAT_BETWEEN, [sum, flat, whole]).filter(|_| below > 0);
             }
         }
-        told(FLAT, [sum, whole])
+        told(FLAT, [sum, flat, whole])
     }
 
     /// Longest edge of a face and the least height of the element above it, m.

@@ -110,7 +110,7 @@ pub(crate) struct ThinPlates {
     pub part: usize,
     /// How many there are, > 0.
     pub elements: usize,
-    /// The shorter edge along the plate over its thickness, of the worst one.
+    /// Geometric mean of the edges along the plate over its thickness, of the worst one.
     pub slenderness: f64,
     /// Angle between its edges along the plate, off a right one, rad.
     pub skew: f64,

@@ -113,6 +113,13 @@ impl ContinuumProperties {
         }
     }
 
+    /// How it resists a layer that it holds, as the shear modulus of an isotropic material, Pa: by shear or by being stretched.
+    pub(crate) fn holding_modulus(&self) -> f64 {
+        let axes = [Vector3::x(), Vector3::y(), Vector3::z()];
+        let stretched = (0..self.dimension).map(|i| self.layer_moduli(axes[(i + 1) % self.dimension], axes[i])[1]);
+        stretched.fold(self.shear_modulus(), f64::max)
+    }
+
     /// Moduli, Pa, of a layer across a unit normal, along a unit vector in it: against shear across the layer, and the shear modulus
     /// of the isotropic steel that gives the same resistance to stretching in the layer, `G 2 / (1 - nu)`.
     pub(crate) fn layer_moduli(&self, normal: Vector3<f64>, along: Vector3<f64>) -> [f64; 2] {
@@ -127,14 +134,17 @@ impl ContinuumProperties {
         [component([normal, along, normal, along]), stretch * (1.0 - STEEL_POISSON) / 2.0]
     }
 
-    /// Lame's first constant over the shear modulus; of an orthotropic material the mean of its planes.
+    /// Lame's first constant over the shear modulus, of an orthotropic material that of an isotropic one whose normal stiffnesses are
+    /// coupled as much.
     pub(crate) fn lame_over_shear(&self) -> f64 {
-        let lame = match &self.elasticity {
-            Elasticity::Isotropic { lambda, .. } => *lambda,
-            Elasticity::General(c) if self.dimension == 2 => c[0][0][1][1],
-            Elasticity::General(c) => (c[0][0][1][1] + c[1][1][2][2] + c[0][0][2][2]) / 3.0,
+        let c = match &self.elasticity {
+            Elasticity::Isotropic { lambda, mu } => return lambda / mu,
+            Elasticity::General(c) => c,
         };
-        lame / self.shear_modulus()
+        let pairs: &[[usize; 2]] = if self.dimension == 2 { &[[0, 1]] } else { &[[0, 1], [1, 2], [0, 2]] };
+        let coupled = |[i, j]: &[usize; 2]| c[*i][*i][*j][*j] / (c[*i][*i][*i][*i] * c[*j][*j][*j][*j]).sqrt();
+        let mean = pairs.iter().map(coupled).sum::<f64>() / pairs.len() as f64;
+        2.0 * mean / (1.0 - mean)
     }
 
     /// Strains of stresses (Pa), both symmetric; of a plane part those in its plane. `None` of a singular elasticity.
