@@ -82,3 +82,36 @@ fn thin_plates_are_told() {
         assert!(is_right, "{name}: {warnings}");
     }
 }
+
+/// A free plane ring of radius 73 mm, 1 mm thick, in Quad8: 25 round it lock, 100 do not.
+#[test]
+fn curved_walls_are_told() {
+    let first = |count: usize| {
+        let folder = scratch("curved");
+        let mut grid = Grids::default();
+        let mut node = |half: usize, radius: f64| {
+            let angle = std::f64::consts::TAU * (half % (2 * count)) as f64 / (2 * count) as f64;
+            grid.node([radius * angle.cos(), radius * angle.sin(), 0.0], true)
+        };
+        let [inner, middle, outer] = [0.0725, 0.073, 0.0735];
+        let quads: Vec<_> = (0..2 * count)
+            .step_by(2)
+            .map(|at| {
+                let corners = [(at, inner), (at, outer), (at + 2, outer), (at + 2, inner)];
+                let middles = [(at, middle), (at + 1, outer), (at + 2, middle), (at + 1, inner)];
+                corners.into_iter().chain(middles).map(|(half, radius)| node(half, radius)).collect::<Vec<_>>()
+            })
+            .collect();
+        quads.iter().for_each(|quad| grid.element(16, 2, "a", quad));
+        grid.write(&folder);
+        let housing =
+            "parts = [{ group = 'a', material = 'steel' }]\nplane = { assumption = 'stress', thickness = 0.01 }";
+        let (warnings, _) = result(&folder, &modes(&folder, housing));
+        let json = std::fs::read_to_string(folder.join("out/modes.json")).unwrap();
+        let json: serde_json::Value = serde_json::from_str(&json).unwrap();
+        (warnings.contains("stand alone across curved walls"), json["frequencies_hz"][3].as_f64().unwrap())
+    };
+    let ((coarse, high), (fine, right)) = (first(25), first(100));
+    assert_eq!([coarse, fine], [true, false]);
+    assert!(high > 1.3 * right, "{high} and {right} Hz");
+}

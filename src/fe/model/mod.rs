@@ -3,6 +3,7 @@
 
 mod attach;
 mod confined;
+mod curved;
 mod error;
 mod flat;
 mod frame;

@@ -90,11 +90,14 @@ impl HousingModel {
 
     /// Area of a face, m^2.
     pub(super) fn area(&self, face: &[usize], element: &HousingElement) -> f64 {
+        let thickness = if self.dimension == 2 { self.properties[element.part].thickness } else { 1.0 };
+        self.size(face) * thickness
+    }
+
+    /// Area of a face, m^2; in the plane its length, m.
+    pub(super) fn size(&self, face: &[usize]) -> f64 {
         let across = self.across(face).norm();
-        match self.dimension {
-            2 => across * self.properties[element.part].thickness,
-            _ => 0.5 * across,
-        }
+        if self.dimension == 2 { across } else { 0.5 * across }
     }
 
     pub(super) fn at(&self, node: usize) -> Vector3<f64> {

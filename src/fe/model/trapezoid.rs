@@ -229,7 +229,8 @@ impl HousingModel {
         Some(relative.symmetric_eigenvalues().max())
     }
 
-    fn volume(&self, element: &HousingElement) -> f64 {
+    /// Volume of an element, m^3; in the plane its area, m^2.
+    pub(super) fn volume(&self, element: &HousingElement) -> f64 {
         let nodes = self.elements.nodes(element);
         let coordinates: Vec<[f64; 3]> = nodes.iter().map(|&node| self.coordinates[node]).collect();
         measure(element.kind, &coordinates).unwrap_or(0.0)

@@ -1,0 +1,92 @@
+//! Elements of second order in curved walls so thin that they lock.
+//!
+//! Bending of a curved wall leaves its middle surface as long as it was. The displacements of a curved element cannot do so: what
+//! they stretch is the sagitta of its edges over the wall's thickness. In free steel tubes of radius 73 mm, one element over the
+//! wall, the lowest frequencies are too high by 10 % at 0.19, 19 % at 0.29 and 59 % at 0.58 with Hex20, and by 10 % at 0.19, 40 % at
+//! 0.25 and 307 % at 0.56 with Tet10 (measured).
+
+use super::HousingModel;
+use super::parts::HousingElement;
+use crate::fe::mesh::sorted_faces;
+use rayon::prelude::*;
+
+/// Sagitta over thickness from which on a wall is told.
+const CURVED: f64 = 0.2;
+
+/// Share of a part's volume from which on it counts as a wall, and not as a slender element beside a hole.
+const SHARE: f64 = 0.1;
+
+/// Curved elements of second order alone across thin walls, of one part.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct CurvedWalls {
+    /// Index of the part.
+    pub part: usize,
+    /// How many there are, > 0.
+    pub elements: usize,
+    /// Sagitta of an edge over the thickness, of the worst one.
+    pub sagitta: f64,
+    /// gmsh's tag of the worst one.
+    pub tag: u64,
+}
+
+impl HousingModel {
+    /// The part of which most is in curved walls that lock; `None` without.
+    pub(crate) fn curved_walls(&self) -> Option<CurvedWalls> {
+        let list = &self.elements.list;
+        let sagittas: Vec<f64> = list.par_iter().map(|element| self.sagitta(element)).collect();
+        if !sagittas.iter().any(|&sagitta| sagitta > CURVED) {
+            return None;
+        }
+        let faces = sorted_faces(list.par_iter().map(|element| (element.kind, self.elements.nodes(element))));
+        let mut outer = vec![false; self.coordinates.len()];
+        for same in faces.chunk_by(|a, b| a.0 == b.0).filter(|same| same.len() == 1) {
+            let element = &list[same[0].1 as usize];
+            let nodes = self.elements.nodes(element);
+            element.kind.faces()[usize::from(same[0].2)].nodes.iter().for_each(|&local| outer[nodes[local]] = true);
+        }
+        let is_wall = |element: &HousingElement| {
+            self.elements.nodes(element)[..element.kind.corners()].iter().all(|&node| outer[node])
+        };
+        let mut parts = vec![(0.0, 0.0, None::<CurvedWalls>); self.properties.len()];
+        for (element, &sagitta) in list.iter().zip(&sagittas) {
+            let (whole, walls, found) = &mut parts[element.part];
+            let volume = self.volume(element);
+            *whole += volume;
+            if sagitta > CURVED && is_wall(element) {
+                *walls += volume;
+                let HousingElement { part, tag, .. } = *element;
+                let found = found.get_or_insert(CurvedWalls { part, elements: 0, sagitta, tag });
+                found.elements += 1;
+                if sagitta > found.sagitta {
+                    *found = CurvedWalls { sagitta, tag, ..*found };
+                }
+            }
+        }
+        let shares = parts.into_iter().map(|(whole, walls, found)| (walls / whole, found));
+        let most = shares.filter(|(share, _)| *share > SHARE).max_by(|a, b| a.0.total_cmp(&b.0));
+        most.and_then(|(_, found)| found)
+    }
+
+    /// How far the middle of an edge is from that of its ends, over the least height of the element; zero of first order.
+    fn sagitta(&self, element: &HousingElement) -> f64 {
+        let (kind, nodes) = (element.kind, self.elements.nodes(element));
+        let edges = kind.middle_edges().iter().zip(&nodes[kind.corners()..]);
+        let offsets =
+            edges.map(|(&[a, b], &middle)| (self.at(middle) - 0.5 * (self.at(nodes[a]) + self.at(nodes[b]))).norm());
+        let offset = offsets.fold(0.0, f64::max);
+        if offset <= 0.0 {
+            return 0.0;
+        }
+        let areas = kind.faces().iter().map(|face| {
+            let corners: Vec<usize> = face.nodes[..face.kind.corners()].iter().map(|&local| nodes[local]).collect();
+            self.size(&corners)
+        });
+        // three corners in the plane, four in space: the volume is the height times a part of the base
+        let of_base = match (kind.corners(), kind.dimension()) {
+            (3, 2) => 2.0,
+            (4 | 5, 3) => 3.0,
+            _ => 1.0,
+        };
+        offset * areas.fold(0.0, f64::max) / (of_base * self.volume(element))
+    }
+}
