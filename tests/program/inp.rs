@@ -170,6 +170,24 @@ fn units_of_a_deck_are_known_by_its_materials() {
     {
         assert!(case.contains(line), "{line}\n{case}");
     }
+    // another of the name that the first one gets, and one that is not isotropic
+    let clash = "*MATERIAL,NAME=bearing steel of the mesh\n*DENSITY\n2.7e-9\n*ELASTIC\n70000,.3\n";
+    let clash = deck
+        .replace("*MATERIAL,NAME=GG\n*ELASTIC\n110000,.27\n", clash)
+        .replace("MATERIAL=GG", "MATERIAL=bearing steel of the mesh");
+    fs::write(folder.join("b.inp"), clash).unwrap();
+    let text = String::from_utf8_lossy(&plummer(&folder, "init b.inp").stdout).into_owned();
+    let names = "\"upper\" of bearing steel of the mesh of the mesh (by the file) and \"lower\" of bearing steel of the mesh (by the file)";
+    assert!(text.contains(names), "{text}");
+    fs::write(
+        folder.join("c.inp"),
+        deck.replace("*ELASTIC\n110000,.27", "*DENSITY\n1e-9\n*ELASTIC,TYPE=ORTHO\n1,1,1,1,1,1,1,1\n1"),
+    )
+    .unwrap();
+    plummer(&folder, "init c.inp");
+    let text = String::from_utf8_lossy(&plummer(&folder, "modes c.toml --set modes.count=3").stdout).into_owned();
+    let ortho = "part \"lower\": GG of the mesh file has *ELASTIC, TYPE=ORTHO, aluminium of the case is isotropic";
+    assert!(text.contains(ortho), "{text}");
     let inspected = String::from_utf8_lossy(&plummer(&folder, "inspect a.inp").stdout).into_owned();
     assert!(
         inspected.contains("\"bearing steel\": E 210000, nu 0.3, density 7.85e-9 (mm-t-s) of \"upper\""),

@@ -9,11 +9,20 @@ const DIFFERENT: f64 = 0.01;
 
 /// Parts of the case whose material is not that of the mesh file, and a length in another unit than the file's materials show.
 pub(super) fn doubts(case: &Case, mesh: &Mesh) -> Vec<String> {
-    let (Some(units), Some(housing)) = (ConsistentUnits::of(&mesh.notes.materials), case.meshed_housing()) else {
-        return Vec::new();
-    };
-    let source = mesh.source.display();
+    let Some(housing) = case.meshed_housing() else { return Vec::new() };
     let mut found = Vec::new();
+    for part in &housing.parts {
+        let said = mesh.notes.material_of(&part.group);
+        let Some((said, law)) = said.and_then(|said| Some((said, said.other_law.as_ref()?))) else { continue };
+        if let Some(Material::Isotropic(_)) = case.material(&part.material) {
+            found.push(format!(
+                "part \"{}\": {} of the mesh file has {law}, {} of the case is isotropic",
+                part.group, said.name, part.material
+            ));
+        }
+    }
+    let Some(units) = ConsistentUnits::of(&mesh.notes.materials) else { return found };
+    let source = mesh.source.display();
     if units.length != housing.length_unit {
         let [own, given] = [units.length, housing.length_unit].map(|unit| unit.symbol());
         found.push(format!(

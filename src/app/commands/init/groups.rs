@@ -44,11 +44,16 @@ pub(crate) struct FileMaterial {
 }
 
 impl FileMaterial {
-    fn of(units: ConsistentUnits, own: &DeckMaterial) -> Option<Self> {
+    /// One of the materials of the file, by a name that no other has.
+    fn of(units: ConsistentUnits, own: &DeckMaterial, all: &[DeckMaterial]) -> Option<Self> {
         let [young, poisson, density] = units.to_si(own)?;
+        let mut name = own.name.clone();
         // a ring may be of a built-in one
-        let is_taken = BUILT_IN_MATERIALS.iter().any(|known| known.name == own.name);
-        let name = if is_taken { format!("{} of the mesh", own.name) } else { own.name.clone() };
+        while BUILT_IN_MATERIALS.iter().any(|known| known.name == name)
+            || name != own.name && all.iter().any(|other| other.name == name)
+        {
+            name.push_str(" of the mesh");
+        }
         Some(Self { name, young: [own.elastic?[0], young], poisson, density: [own.density?, density] })
     }
 }
@@ -119,14 +124,16 @@ impl Groups {
     pub(crate) fn of(mesh: &Mesh, dimension: usize, bore: Option<&str>) -> Self {
         let units = ConsistentUnits::of(&mesh.notes.materials);
         let mut found = Self { units, ..Self::default() };
-        let mut taken = HashSet::new();
+        let (mut taken, mut taken_materials) = (HashSet::new(), HashSet::new());
         let mut on_housing = vec![false; mesh.nodes.len()];
         // large groups first: of two that overlap the one that holds more is the part; where the file says what bodies are
         // made of, those of one material before all
         let mut solids: Vec<&PhysicalGroup> =
             mesh.groups.iter().filter(|group| group.dimension == dimension && usable(mesh, group)).collect();
-        let is_mixed =
-            |group: &PhysicalGroup| !mesh.notes.materials.is_empty() && mesh.notes.material_of(&group.name).is_none();
+        let of_file =
+            mesh.notes.materials.iter().flat_map(|own| own.groups.iter().map(move |group| (group.as_str(), own)));
+        let of_file: HashMap<&str, &DeckMaterial> = of_file.collect();
+        let is_mixed = |group: &PhysicalGroup| !of_file.is_empty() && !of_file.contains_key(group.name.as_str());
         solids.sort_by_key(|group| (is_mixed(group), std::cmp::Reverse(group.elements.len())));
         for group in solids {
             if group.elements.iter().any(|id| taken.contains(id)) {
@@ -142,17 +149,19 @@ impl Groups {
                 on_housing[node] = true;
             }
             let known = built_in_like(&group.name).or_else(|| says(&group.name, &STEEL).then_some("steel"));
-            let said = mesh.notes.material_of(&group.name).and_then(|own| FileMaterial::of(units?, own));
+            let said =
+                of_file.get(group.name.as_str()).and_then(|own| FileMaterial::of(units?, own, &mesh.notes.materials));
             let (material, from) = match (&said, known) {
                 (Some(said), _) => (said.name.as_str(), "mesh"),
                 (None, Some(known)) => (known, "by its name"),
                 (None, None) => (USUAL_MATERIAL, "guess"),
             };
             found.parts.push(PartGuess { group: group.name.clone(), material: material.to_owned(), from });
-            found.materials.extend(said.filter(|said| found.materials.iter().all(|own| own.name != said.name)));
+            found.materials.extend(said.filter(|said| taken_materials.insert(said.name.clone())));
         }
-        let order = |name: &str| mesh.groups.iter().position(|own| own.dimension == dimension && own.name == name);
-        found.parts.sort_by_key(|part| order(&part.group));
+        let bodies = mesh.groups.iter().enumerate().filter(|(_, own)| own.dimension == dimension);
+        let order: HashMap<&str, usize> = bodies.map(|(place, own)| (own.name.as_str(), place)).collect();
+        found.parts.sort_by_key(|part| order.get(part.group.as_str()));
         found.without_part = mesh.element_ids(dimension).filter(|id| !taken.contains(id)).count();
         let bore = bore.and_then(|name| mesh.group(name).ok());
         found.held_by = if mesh.notes.supports.is_empty() { BY_NAME } else { BY_FILE };
