@@ -9,7 +9,7 @@ use crate::app::commands::modes::{
     FileComparison, LoneMode, MeshConvergence, ModesResult, Reading, SequenceMesh, completeness, compute_modes,
     error_text, misses_text, mode_numbers, modes_report, plain,
 };
-use crate::report::{mass_in_words, signed, signed_fixed, significant};
+use crate::report::{counted, mass_in_words, signed, signed_fixed, significant};
 
 /// Computes the modes of a case and writes `report.html`, its tables, `modes.npz` and, last, `modes.json`.
 ///
@@ -38,7 +38,7 @@ pub(super) fn modes(job: &Job<'_>) -> Result<Outcome, CliError> {
 fn summary(result: &ModesResult) -> String {
     let survey = &result.survey;
     let check = survey.basis.count_check;
-    let mut first = format!("{} degrees of freedom, {} rigid modes", survey.dof, survey.basis.rigid_modes);
+    let mut first = format!("{} degrees of freedom, {}", survey.dof, counted(survey.basis.rigid_modes, "rigid mode"));
     if survey.basis.rigid_modes == survey.basis.count() {
         first.push_str(" (all that were asked for)");
     }

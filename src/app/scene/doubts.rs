@@ -137,7 +137,7 @@ fn housing_doubts(mesh: &Mesh, model: &HousingModel) -> Vec<String> {
     let trapezoids = model.trapezoids().map(|found| {
         let [x, y, z] = found.place;
         format!(
-            "part \"{}\" has {} elements of first order with tilted sides in thin places, where they are far too stiff in bending: frequencies may be up to {:.1} times too high; the worst is element {}, ({x:.6}, {y:.6}, {z:.6}) m; mesh with second order ({order}), or with sides straight across the thickness",
+            "part \"{}\" has elements of first order ({}) with tilted sides in thin places, where they are far too stiff in bending: frequencies may be up to {:.1} times too high; the worst is element {}, ({x:.6}, {y:.6}, {z:.6}) m; mesh with second order ({order}), or with sides straight across the thickness",
             model.description.parts[found.part].group, found.elements, found.factor, found.tag
         )
     });
@@ -147,19 +147,19 @@ fn housing_doubts(mesh: &Mesh, model: &HousingModel) -> Vec<String> {
             skew => format!(", {skew:.0} degrees off square,"),
         };
         format!(
-            "{} Hex8 are in thin plates, with edges up to {} times as long as the plate is thick{} at element {} of part \"{}\": the frequencies of bending are too high where a wave spans few of them; give shorter edges, or mesh with second order ({order})",
+            "Hex8 ({}) are in thin plates, with edges up to {} times as long as the plate is thick{} at element {} of part \"{}\": the frequencies of bending are too high where a wave spans few of them; give shorter edges, or mesh with second order ({order})",
             found.elements, significant(found.slenderness, 2), skewed, found.tag, model.description.parts[found.part].group
         )
     });
     let curved = model.curved_walls().map(|found| {
         format!(
-            "{} elements of second order of part \"{}\" stand alone across curved walls, where bending stretches them: frequencies may be 10 to 40 % too high where the sagitta of an edge is 0.2 of the thickness, and several times at 0.5; it is up to {}, at element {}; give shorter edges along the curve",
+            "elements of second order ({}) of part \"{}\" stand alone across curved walls, where bending stretches them: frequencies may be 10 to 40 % too high where the sagitta of an edge is 0.2 of the thickness, and several times at 0.5; it is up to {}, at element {}; give shorter edges along the curve",
             found.elements, model.description.parts[found.part].group, significant(found.sagitta, 2), found.tag
         )
     });
     let confined = model.confined().map(|found| {
         format!(
-            "{} elements of first order stand alone between held faces in layers that hardly change their volume: their frequencies of pressure may be twice too high; the first is element {} of part \"{}\"; give two elements across, or mesh with second order ({order})",
+            "elements of first order ({}) stand alone between held faces in layers that hardly change their volume: their frequencies of pressure may be twice too high; the first is element {} of part \"{}\"; give two elements across, or mesh with second order ({order})",
             found.elements, found.tag, model.description.parts[found.part].group
         )
     });
