@@ -4,6 +4,7 @@ use crate::fe::element::continuum::measure;
 use crate::fe::mesh::{BoundingBox, ElementKind, Mesh, sorted_corners};
 use crate::fe::model::{HousingElements, HousingPart};
 use nalgebra::Vector3;
+use rayon::prelude::*;
 
 /// Distance below which two points are in one place, relative to the diagonal of all bodies. gmsh places coincident
 /// geometry within 1e-8 of its size and single precision keeps 6e-8; an element of a mesh of 1e7 has edges of 1e-3.
@@ -20,6 +21,8 @@ pub(super) struct Solid<'m> {
     pub(super) nodes: &'m [usize],
     /// Index into the names of the parts.
     pub(super) part: usize,
+    /// Whether nodes behind the corners are not where straight edges and faces have them.
+    pub(super) curved: bool,
 }
 
 impl Solid<'_> {
@@ -59,7 +62,7 @@ impl<'m> Bodies<'m> {
         let solids = mesh.element_ids(dimension.max(2)).map(|id| {
             let block = &mesh.blocks[id.block];
             let (tag, nodes) = (block.tags[id.index], block.nodes_of(id.index));
-            Solid { tag, kind: block.kind, nodes, part: part[id.block][id.index] }
+            Solid { tag, kind: block.kind, nodes, part: part[id.block][id.index], curved: false }
         });
         Self::new(&mesh.nodes, solids.collect(), parts)
     }
@@ -75,17 +78,27 @@ impl<'m> Bodies<'m> {
             kind: element.kind,
             nodes: elements.nodes(element),
             part: element.part,
+            curved: false,
         });
         Self::new(points, solids.collect(), parts.iter().map(|part| part.group.clone()).collect())
     }
 
-    fn new(points: &'m [[f64; 3]], solids: Vec<Solid<'m>>, parts: Vec<String>) -> Self {
+    fn new(points: &'m [[f64; 3]], mut solids: Vec<Solid<'m>>, parts: Vec<String>) -> Self {
         let corners = solids.iter().flat_map(|solid| solid.corners());
         let extent = BoundingBox::of(corners.map(|&node| points[node]));
         let tolerance = match solids.is_empty() {
             true => 0.0,
             false => SAME_PLACE * extent.diagonal(),
         };
+        let place = |node: usize| Vector3::from(points[node]);
+        solids.par_iter_mut().for_each(|solid| {
+            let (corners, behind) = solid.nodes.split_at(solid.kind.corners());
+            solid.curved = solid.kind.beyond_corners().zip(behind).any(|(around, &node)| {
+                let mean =
+                    around.iter().map(|&local| place(corners[local])).sum::<Vector3<f64>>() / around.len() as f64;
+                (place(node) - mean).norm() > tolerance
+            });
+        });
         Self { points, solids, parts, tolerance }
     }
 
