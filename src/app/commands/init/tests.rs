@@ -120,7 +120,7 @@ fn a_sensor_stands_where_nothing_is_held() {
     let rim = Rim::of(&mesh, 2);
     let place = |held: &[SupportGuess]| {
         let found = spot(&mesh, &rim, [0.0; 3], 0.0, [[0.0, 1.0, 0.0], [0.0, 0.0, 1.0]], held).unwrap();
-        mesh.nodes.iter().position(|node| *node == found).unwrap() + 1
+        mesh.nodes.iter().position(|node| node.iter().eq(&found)).unwrap() + 1
     };
     let groups = Groups::of(&mesh, 2, None);
     assert_eq!(held(&groups), ["foot"]);
