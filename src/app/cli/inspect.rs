@@ -9,7 +9,6 @@ use super::{CliError, Options, Outcome, OutputFolder};
 use crate::app::case::{Case, short};
 use crate::app::commands::result::VERSION;
 use crate::app::commands::{InspectResult, Inspection, SurfaceKind};
-use crate::app::error::ComputeError;
 use crate::app::scene::size_doubt;
 use crate::fe::mesh::{ConsistentUnits, DeckMaterial};
 use crate::numerics::units::LengthUnit;
@@ -44,7 +43,7 @@ pub(crate) fn inspect(
     let path = housing.map_or(path, |housing| &housing.mesh);
     let unit = unit.or(housing.map(|housing| housing.length_unit));
     let straight = straight || housing.is_some_and(|housing| housing.straighten);
-    let found = Inspection::of_file(path, unit, straight).map_err(ComputeError::from)?;
+    let found = Inspection::of_file(path, unit, straight)?;
     if found.shells {
         let what = "the mesh is of surfaces that do not lie in a plane z = const, and shells are not modelled";
         return Err(CliError::input(format!("{}: {what}", path.display())).with_help(SHELLS));

@@ -1,9 +1,10 @@
 //! `plummer inspect`: what a mesh contains, how large it is and how well its elements are shaped.
 
+use crate::app::error::ComputeError;
 use crate::fe::element::continuum::{ShapeQuality, measure, quality, surface_weights};
 use crate::fe::mesh::cylinder::Cylinder;
 use crate::fe::mesh::surfaces::{CadSurface, SurfaceShape};
-use crate::fe::mesh::{ElementId, ElementKind, Inventory, Mesh, MeshError, Rim, entity_name};
+use crate::fe::mesh::{ElementId, ElementKind, Inventory, Mesh, Rim, entity_name};
 use crate::fe::model::{Bodies, Crossing, Doubled, MixedOrders, Overlap, Touching, folds, straighten};
 use crate::numerics::units::LengthUnit;
 use schemars::JsonSchema;
@@ -136,11 +137,11 @@ impl Inspection {
     /// are taken as metres.
     ///
     /// # Errors
-    /// [`MeshError`] if it cannot be read.
-    pub(crate) fn of_file(path: &Path, unit: Option<LengthUnit>, straight: bool) -> Result<Self, MeshError> {
+    /// [`ComputeError`] if it cannot be read, or straightened.
+    pub(crate) fn of_file(path: &Path, unit: Option<LengthUnit>, straight: bool) -> Result<Self, ComputeError> {
         let mut mesh = Mesh::read(path, unit.unwrap_or(LengthUnit::Metre))?;
         if straight {
-            straighten(&mut mesh);
+            straighten(&mut mesh)?;
         }
         Ok(Self::of_mesh(&mesh, unit))
     }

@@ -148,7 +148,7 @@ pub(crate) fn read_mesh(case: &Case, housing: &Housing, watch: &impl Watch) -> R
     watch.read(&FileDigest::of_bytes(path, &bytes));
     let mut mesh = Mesh::from_bytes(bytes, path, housing.length_unit)?;
     if housing.straighten {
-        straighten(&mut mesh);
+        straighten(&mut mesh)?;
     }
     mesh.add_entity_groups(case.groups().into_iter().map(|(_, name)| name));
     case.check_groups(&mesh.names())?;

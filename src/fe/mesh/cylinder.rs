@@ -2,18 +2,54 @@
 //!
 //! The axis is the direction that the faces' normals are all across: the eigenvector of the smallest eigenvalue of
 //! `sum A n n^T`. From there the squared distances of the nodes are made least by Gauss and Newton's method, over two tilts of the
-//! axis, two displacements across it and the radius (a plane mesh: without the tilts). Corner nodes alone make the fit: middle
-//! nodes of a straight-sided mesh lie on chords.
+//! axis, two displacements across it and the radius (a plane mesh: without the tilts). Corner nodes alone make the fit, since middle
+//! nodes of a straight-sided mesh lie on chords; all nodes do where the corners' cylinder is not round.
 
+use super::ElementKind;
 use nalgebra::{DMatrix, DVector, Matrix3, Vector3};
 
-/// A face of a group (a curve's element in a plane mesh) by its corners.
+/// A face of a group (a curve's element in a plane mesh).
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Facet {
-    /// Corners, in the mesh's unit; two for a curve.
-    pub corners: Vec<[f64; 3]>,
+    pub kind: ElementKind,
+    /// Places of its nodes, in the mesh's unit.
+    pub nodes: Vec<[f64; 3]>,
     /// Middle of the element of the housing that it bounds, if it bounds one.
     pub inside: Option<[f64; 3]>,
+}
+
+impl Facet {
+    /// Corners; two for a curve.
+    pub(crate) fn corners(&self) -> &[[f64; 3]] {
+        &self.nodes[..self.kind.corners()]
+    }
+
+    /// Area times normal of the triangle or quadrilateral of the corners, from its diagonals or sides; length times normal
+    /// of a curve's element in the plane.
+    pub(crate) fn area(&self) -> Vector3<f64> {
+        let at = |place: usize| Vector3::from(self.nodes[place]);
+        match self.kind.corners() {
+            2 => (at(1) - at(0)).cross(&Vector3::z()),
+            3 => 0.5 * (at(1) - at(0)).cross(&(at(2) - at(0))),
+            4 => 0.5 * (at(2) - at(0)).cross(&(at(3) - at(1))),
+            _ => Vector3::zeros(),
+        }
+    }
+
+    /// Unit normal at a corner: of the second order across the tangents of the parabolas that end there, of the first that
+    /// of the corners. `None` without size.
+    pub(crate) fn normal(&self, corner: usize) -> Option<Vector3<f64>> {
+        let count = self.kind.corners();
+        let at = |place: usize| Vector3::from(self.nodes[place]);
+        let tangent = |end: usize, edge: usize| 4.0 * at(count + edge) - 3.0 * at(corner) - at(end);
+        let before = (corner + count - 1) % count;
+        let normal = match (self.kind.order(), count) {
+            (2, 2) => tangent(1 - corner, 0).cross(&Vector3::z()),
+            (2, _) => tangent((corner + 1) % count, corner).cross(&tangent(before, before)),
+            _ => self.area(),
+        };
+        normal.try_normalize(f64::MIN_POSITIVE)
+    }
 }
 
 /// A fitted cylinder. Lengths in the unit of the points.
@@ -25,9 +61,9 @@ pub(crate) struct Cylinder {
     pub centre: [f64; 3],
     /// Radius, > 0.
     pub radius: f64,
-    /// Root of the mean squared distance of the corners from it.
+    /// Root of the mean squared distance of the nodes from it, middle nodes included.
     pub rms: f64,
-    /// Largest distance of a node, middle nodes included.
+    /// Largest distance of a node.
     pub farthest: f64,
     /// Extent along the axis.
     pub length: f64,
@@ -54,7 +90,7 @@ impl Cylinder {
 /// degrees has as much, a plane nothing.
 const SPREAD: f64 = 0.02;
 
-/// Widest angle of a facet (rad): the corners of six round the turn are a coarse cylinder, those of four a box.
+/// Widest angle between neighbouring nodes of a facet (rad): those of six round the turn are a coarse cylinder, of four a box.
 const WIDEST: f64 = 1.1;
 
 /// Steps of the fit; it converges quadratically, noise or not, from the axis that the normals give.
@@ -63,10 +99,23 @@ const STEPS: usize = 30;
 /// Fits a cylinder along any axis to facets of surfaces, or a circle about z to those of curves; `nodes` are all nodes of the
 /// group. `None`: flat, round in two directions, or too few points.
 pub(crate) fn fit(facets: &[Facet], nodes: &[[f64; 3]]) -> Option<Cylinder> {
-    let curves = facets.iter().all(|facet| facet.corners.len() == 2);
+    let curves = facets.iter().all(|facet| facet.kind.dimension() == 1);
     let axis = if curves { Vector3::z() } else { axis_across(facets)? };
-    let corners = facets.iter().flat_map(|facet| &facet.corners);
-    let points: Vec<Vector3<f64>> = corners.map(|&corner| Vector3::from(corner)).collect();
+    let by_corners = fit_to(facets.iter().flat_map(Facet::corners), axis, curves, facets, nodes);
+    if by_corners.as_ref().is_some_and(Cylinder::is_round) || facets.iter().all(|facet| facet.kind.order() == 1) {
+        return by_corners;
+    }
+    fit_to(facets.iter().flat_map(|facet| &facet.nodes), axis, curves, facets, nodes)
+}
+
+fn fit_to<'f>(
+    points: impl Iterator<Item = &'f [f64; 3]>,
+    axis: Vector3<f64>,
+    curves: bool,
+    facets: &[Facet],
+    nodes: &[[f64; 3]],
+) -> Option<Cylinder> {
+    let points: Vec<Vector3<f64>> = points.map(|&point| Vector3::from(point)).collect();
     if points.len() < 6 {
         return None;
     }
@@ -89,14 +138,13 @@ pub(crate) fn fit(facets: &[Facet], nodes: &[[f64; 3]]) -> Option<Cylinder> {
     let radius = size * best.radius;
     let off = |point: &Vector3<f64>| distance(point, &centre, &axis) - radius;
     let turn = covered(facets, &centre, &axis)?;
-    let squares: f64 = points.iter().map(|point| off(point).powi(2)).sum();
-    let nodes = nodes.iter().map(|&node| off(&Vector3::from(node)).abs());
+    let off = nodes.iter().map(|&node| off(&Vector3::from(node)).abs());
     Some(Cylinder {
         axis: axis.into(),
         centre: centre.into(),
         radius,
-        rms: (squares / points.len() as f64).sqrt(),
-        farthest: nodes.fold(0.0, f64::max),
+        rms: (off.clone().map(|off| off * off).sum::<f64>() / nodes.len().max(1) as f64).sqrt(),
+        farthest: off.fold(0.0, f64::max),
         length: size * (high - low),
         turn,
         hole: hole(facets, &centre, &axis),
@@ -107,10 +155,9 @@ pub(crate) fn fit(facets: &[Facet], nodes: &[[f64; 3]]) -> Option<Cylinder> {
 fn axis_across(facets: &[Facet]) -> Option<Vector3<f64>> {
     let mut squares = Matrix3::zeros();
     for facet in facets {
-        let area = area_vector(&facet.corners);
-        let size = area.norm();
-        if size > 0.0 {
-            squares += area * area.transpose() / size;
+        let weight = facet.area().norm() / facet.corners().len() as f64;
+        for normal in (0..facet.corners().len()).filter_map(|node| facet.normal(node)) {
+            squares += weight * normal * normal.transpose();
         }
     }
     let trace = squares.trace();
@@ -122,18 +169,6 @@ fn axis_across(facets: &[Facet]) -> Option<Vector3<f64>> {
     order.sort_by(|&a, &b| eigen.eigenvalues[a].total_cmp(&eigen.eigenvalues[b]));
     let [least, second] = [order[0], order[1]].map(|place| eigen.eigenvalues[place]);
     (least < SPREAD && second > SPREAD).then(|| eigen.eigenvectors.column(order[0]).into_owned())
-}
-
-/// Area times normal of a triangle or a quadrilateral, from its diagonals or sides; length times normal of a curve's
-/// element in the plane.
-pub(crate) fn area_vector(corners: &[[f64; 3]]) -> Vector3<f64> {
-    let at = |place: usize| Vector3::from(corners[place]);
-    match corners.len() {
-        2 => (at(1) - at(0)).cross(&Vector3::z()),
-        3 => 0.5 * (at(1) - at(0)).cross(&(at(2) - at(0))),
-        4 => 0.5 * (at(2) - at(0)).cross(&(at(3) - at(1))),
-        _ => Vector3::zeros(),
-    }
 }
 
 /// Two directions across an axis, and the axis, of length 1.
@@ -213,24 +248,24 @@ fn distance(point: &Vector3<f64>, centre: &Vector3<f64>, axis: &Vector3<f64>) ->
     (arm - axis * axis.dot(&arm)).norm()
 }
 
-/// Share of the turn in which there is a facet: each covers the angles between its corners. `None` if one is too wide.
+/// Share of the turn in which there is a facet: each covers the angles between its nodes. `None` if one is too wide.
 fn covered(facets: &[Facet], centre: &Vector3<f64>, axis: &Vector3<f64>) -> Option<f64> {
     use std::f64::consts::{PI, TAU};
     let frame = across(*axis);
     let mut spans: Vec<(f64, f64)> = Vec::with_capacity(facets.len());
     for facet in facets {
-        let angles = facet.corners.iter().map(|&corner| {
-            let arm = Vector3::from(corner) - centre;
+        let angles = facet.nodes.iter().map(|&node| {
+            let arm = Vector3::from(node) - centre;
             frame[1].dot(&arm).atan2(frame[0].dot(&arm))
         });
         let angles: Vec<f64> = angles.collect();
         let Some(&first) = angles.first() else {
             continue;
         };
-        // around the first corner, so that a facet across the cut at half a turn stays in one piece
+        // around the first node, so that a facet across the cut at half a turn stays in one piece
         let turned = angles.iter().map(|angle| (angle - first + PI).rem_euclid(TAU) - PI);
         let (low, high) = turned.fold((0.0_f64, 0.0_f64), |(low, high), angle| (low.min(angle), high.max(angle)));
-        if high - low > WIDEST {
+        if high - low > WIDEST * facet.kind.order() as f64 {
             return None;
         }
         let start = (first + low).rem_euclid(TAU);
@@ -249,176 +284,17 @@ fn covered(facets: &[Facet], centre: &Vector3<f64>, axis: &Vector3<f64>) -> Opti
     Some((total / TAU).min(1.0))
 }
 
-/// Whether the elements lie farther from the axis than the faces that they have there.
+/// Whether the faces look at the axis, away from their elements.
 fn hole(facets: &[Facet], centre: &Vector3<f64>, axis: &Vector3<f64>) -> Option<bool> {
-    let outwards = facets.iter().filter_map(|facet| {
-        let inside = Vector3::from(facet.inside?);
-        let corners = facet.corners.iter().map(|&corner| Vector3::from(corner));
-        let middle = corners.sum::<Vector3<f64>>() / facet.corners.len() as f64;
-        Some(distance(&inside, centre, axis) - distance(&middle, centre, axis))
+    let inwards = facets.iter().filter_map(|facet| {
+        let [inside, corner] = [facet.inside?, facet.nodes[0]].map(Vector3::from);
+        let arm = corner - centre;
+        let out = facet.area() * facet.area().dot(&(corner - inside)).signum();
+        Some(-out.dot(&(arm - axis * axis.dot(&arm))))
     });
-    outwards.reduce(|sum, next| sum + next).map(|sum| sum > 0.0)
+    inwards.reduce(|sum, next| sum + next).map(|sum| sum > 0.0)
 }
 
 #[cfg(test)]
-mod tests {
-    use std::f64::consts::TAU;
-
-    use nalgebra::{Rotation3, Unit, Vector3};
-
-    use super::{Cylinder, Facet, fit};
-
-    struct Made {
-        centre: Vector3<f64>,
-        turn: Rotation3<f64>,
-        radius: f64,
-        length: f64,
-        arc: f64,
-        noise: f64,
-    }
-
-    impl Made {
-        fn about_z() -> Self {
-            Self {
-                centre: Vector3::zeros(),
-                turn: Rotation3::identity(),
-                radius: 6.0,
-                length: 10.0,
-                arc: TAU,
-                noise: 0.0,
-            }
-        }
-
-        fn fit(&self) -> Option<Cylinder> {
-            let (round, rows) = (24, 5);
-            let mut state = 12345_u32;
-            let mut random = move || {
-                state = state.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
-                2.0 * f64::from(state) / f64::from(u32::MAX) - 1.0
-            };
-            let mut nodes = vec![[0.0; 3]; (round + 1) * (rows + 1)];
-            let full = self.arc > TAU - 1e-9;
-            for row in 0..=rows {
-                for step in 0..=round {
-                    let angle = self.arc * step as f64 / round as f64;
-                    let radius = self.radius + self.noise * random();
-                    let along = self.length * (row as f64 / rows as f64 - 0.5);
-                    let point = Vector3::new(radius * angle.cos(), radius * angle.sin(), along);
-                    let place = row * (round + 1) + step;
-                    nodes[place] = (self.turn * point + self.centre).into();
-                    if full && step == round {
-                        nodes[place] = nodes[row * (round + 1)];
-                    }
-                }
-            }
-            let mut facets = Vec::new();
-            for row in 0..rows {
-                for step in 0..round {
-                    let place = row * (round + 1) + step;
-                    let corners = [place, place + 1, place + round + 2, place + round + 1];
-                    let corners: Vec<[f64; 3]> = corners.iter().map(|&n| nodes[n]).collect();
-                    let middle = corners.iter().map(|&c| Vector3::from(c)).sum::<Vector3<f64>>() / 4.0;
-                    let axis = self.turn * Vector3::z();
-                    let arm = middle - self.centre;
-                    let out = arm - axis * axis.dot(&arm);
-                    let inside = Some((middle + 0.1 * out).into());
-                    facets.push(Facet { corners, inside });
-                }
-            }
-            fit(&facets, &nodes)
-        }
-    }
-
-    fn near(found: [f64; 3], expected: Vector3<f64>, within: f64) {
-        let found = Vector3::from(found);
-        assert!((found - expected).norm() < within, "{found} {expected}");
-    }
-
-    #[test]
-    fn a_whole_cylinder_is_found_to_round_off() {
-        let made = Made::about_z();
-        let found = made.fit().unwrap();
-        near(found.axis, Vector3::z(), 1e-12);
-        near(found.centre, Vector3::zeros(), 1e-11);
-        assert!((found.radius / 6.0 - 1.0).abs() < 1e-12);
-        assert!((found.length / 10.0 - 1.0).abs() < 1e-12);
-        assert!(found.rms < 1e-11 && found.farthest < 1e-11);
-        assert!((found.turn - 1.0).abs() < 1e-9, "{}", found.turn);
-        assert_eq!(found.hole, Some(true));
-    }
-
-    #[test]
-    fn any_axis_and_any_place() {
-        let made = Made {
-            centre: Vector3::new(300.0, -20.0, 1000.0),
-            turn: Rotation3::from_axis_angle(&Unit::new_normalize(Vector3::new(1.0, 2.0, 0.3)), 1.1),
-            ..Made::about_z()
-        };
-        let found = made.fit().unwrap();
-        let axis = made.turn * Vector3::z();
-        near(found.axis, if axis[axis.iamax()] < 0.0 { -axis } else { axis }, 1e-11);
-        near(found.centre, made.centre, 1e-9);
-        assert!((found.radius / 6.0 - 1.0).abs() < 1e-11);
-    }
-
-    #[test]
-    fn half_a_noisy_bore() {
-        let made = Made {
-            arc: 0.5 * TAU,
-            noise: 0.006,
-            centre: Vector3::new(5.0, 40.0, 0.0),
-            turn: Rotation3::from_axis_angle(&Vector3::x_axis(), 0.5 * std::f64::consts::PI),
-            ..Made::about_z()
-        };
-        let found = made.fit().unwrap();
-        // 150 nodes with a deviation of 0.006 / sqrt(3) each: a tenth of it is three standard errors of a centre by half a circle
-        near(found.axis, -(made.turn * Vector3::z()), 3e-3);
-        near(found.centre, made.centre, 4e-3);
-        assert!((found.radius - 6.0).abs() < 4e-3, "{}", found.radius);
-        assert!((found.turn - 0.5).abs() < 1e-2, "{}", found.turn);
-        assert!((0.002..0.0046).contains(&found.rms), "{}", found.rms);
-        assert!((0.005..0.0075).contains(&found.farthest), "{}", found.farthest);
-    }
-
-    #[test]
-    fn planes_spheres_and_boxes_are_none() {
-        let flat = |corners: [[f64; 3]; 4]| Facet { corners: corners.to_vec(), inside: None };
-        let plane: Vec<Facet> = (0..9)
-            .map(|n| {
-                let (x, y) = (f64::from(n % 3), f64::from(n / 3));
-                flat([[x, y, 0.0], [x + 1.0, y, 0.0], [x + 1.0, y + 1.0, 0.0], [x, y + 1.0, 0.0]])
-            })
-            .collect();
-        assert_eq!(fit(&plane, &[]), None);
-        assert_eq!(fit(&[], &[]), None);
-        let cube = [
-            [[0., 0., 0.], [1., 0., 0.], [1., 1., 0.], [0., 1., 0.]],
-            [[0., 0., 1.], [1., 0., 1.], [1., 1., 1.], [0., 1., 1.]],
-            [[0., 0., 0.], [1., 0., 0.], [1., 0., 1.], [0., 0., 1.]],
-            [[0., 1., 0.], [1., 1., 0.], [1., 1., 1.], [0., 1., 1.]],
-            [[0., 0., 0.], [0., 1., 0.], [0., 1., 1.], [0., 0., 1.]],
-            [[1., 0., 0.], [1., 1., 0.], [1., 1., 1.], [1., 0., 1.]],
-        ];
-        let cube: Vec<Facet> = cube.into_iter().map(flat).collect();
-        assert_eq!(fit(&cube, &[]), None);
-        // four sides of a box: the normals are those of a cylinder, and the corners lie on one
-        assert_eq!(fit(&cube[2..], &[[0.5, 0.0, 0.5]]), None);
-    }
-
-    #[test]
-    fn a_circle_in_a_plane_mesh() {
-        let at = |step: usize| {
-            let angle = TAU * step as f64 / 12.0;
-            [3.0 + 2.0 * angle.cos(), 1.0 + 2.0 * angle.sin(), 0.0]
-        };
-        let facets: Vec<Facet> =
-            (0..9).map(|step| Facet { corners: vec![at(step), at(step + 1)], inside: Some([3.0, 1.0, 0.0]) }).collect();
-        let nodes: Vec<[f64; 3]> = (0..10).map(at).collect();
-        let found = fit(&facets, &nodes).unwrap();
-        near(found.axis, Vector3::z(), 1e-15);
-        near(found.centre, Vector3::new(3.0, 1.0, 0.0), 1e-12);
-        assert!((found.radius - 2.0).abs() < 1e-12);
-        assert!((found.turn - 0.75).abs() < 1e-9, "{}", found.turn);
-        assert_eq!(found.hole, Some(false));
-    }
-}
+#[path = "cylinder_tests.rs"]
+mod tests;

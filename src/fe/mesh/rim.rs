@@ -25,22 +25,23 @@ impl Rim {
         Self { faces, by_corners }
     }
 
-    /// Each face of the rim with the corners of its element's middle.
+    /// Each face of the rim with its element's middle.
     pub(crate) fn facets<'a>(&'a self, mesh: &'a Mesh) -> impl Iterator<Item = Facet> + 'a {
         self.faces.iter().map(move |face| {
-            let corners = &face.nodes[..face.kind.corners()];
-            Facet { corners: corners.iter().map(|&node| mesh.nodes[node]).collect(), inside: Some(middle(mesh, face)) }
+            let nodes = face.nodes.iter().map(|&node| mesh.nodes[node]).collect();
+            Facet { kind: face.kind, nodes, inside: Some(middle(mesh, face)) }
         })
     }
 
-    /// Elements one dimension below the body, each with the corners of its own and the middle of the element behind it.
+    /// Elements one dimension below the body, each with the middle of the element behind it.
     pub(crate) fn facets_of(&self, mesh: &Mesh, elements: &[ElementId]) -> Vec<Facet> {
         let faces = elements.iter().map(|id| {
             let block = &mesh.blocks[id.block];
             let (nodes, corners) = (block.nodes_of(id.index), block.kind.corners());
             let face = self.by_corners.get(&key(nodes, corners));
             Facet {
-                corners: nodes[..corners].iter().map(|&node| mesh.nodes[node]).collect(),
+                kind: block.kind,
+                nodes: nodes.iter().map(|&node| mesh.nodes[node]).collect(),
                 inside: face.map(|&place| middle(mesh, &self.faces[place])),
             }
         });

@@ -2,7 +2,7 @@
 //!
 //! CAD programs cut a bore into halves: pieces of one cylinder that share nodes are one, and so are pieces of one plane.
 
-use super::cylinder::{Cylinder, Facet, area_vector, fit};
+use super::cylinder::{Cylinder, Facet, fit};
 use super::{BoundingBox, ElementId, Mesh, Rim};
 use nalgebra::Vector3;
 
@@ -60,7 +60,7 @@ impl CadSurface {
                 None => SurfaceShape::Other,
             },
         };
-        let size = facets.iter().map(|facet| area_vector(&facet.corners).norm()).sum();
+        let size = facets.iter().map(|facet| facet.area().norm()).sum();
         Self { tags, elements, nodes, shape, size }
     }
 
@@ -127,12 +127,11 @@ impl Cylinder {
 
 /// Normal and offset of the plane that all points are in; its sign is that of the first facet with a body behind it.
 fn plane(facets: &[Facet], points: &[[f64; 3]], within: f64) -> Option<(Vector3<f64>, f64)> {
-    let vector = |facet: &Facet| area_vector(&facet.corners);
-    let largest = facets.iter().max_by(|a, b| vector(a).norm().total_cmp(&vector(b).norm()))?;
-    let mut normal = vector(largest).try_normalize(f64::MIN_POSITIVE)?;
+    let largest = facets.iter().max_by(|a, b| a.area().norm().total_cmp(&b.area().norm()))?;
+    let mut normal = largest.area().try_normalize(f64::MIN_POSITIVE)?;
     // neighbours in a file may be turned against each other
     let turned = |own: Vector3<f64>| if own.dot(&normal) < 0.0 { -own } else { own };
-    normal = facets.iter().map(|facet| turned(vector(facet))).sum::<Vector3<f64>>().try_normalize(f64::MIN_POSITIVE)?;
+    normal = facets.iter().map(|facet| turned(facet.area())).sum::<Vector3<f64>>().try_normalize(f64::MIN_POSITIVE)?;
     let mean = points.iter().map(|&point| normal.dot(&Vector3::from(point))).sum::<f64>() / points.len() as f64;
     if points.iter().any(|&point| (normal.dot(&Vector3::from(point)) - mean).abs() > within) {
         return None;

@@ -6,7 +6,8 @@
 
 use crate::fe::element::continuum::{measure, quality, straight_edges};
 use crate::fe::mesh::{BoundaryFace, ElementId, ElementKind, Mesh, MeshNote};
-use crate::fe::model::Bodies;
+use crate::fe::model::overlap::part;
+use crate::fe::model::{Bodies, ModelError};
 use nalgebra::Vector3;
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Write as _;
@@ -37,23 +38,50 @@ const FARTHEST: f64 = 0.05;
 /// part of a unit normal that the others have not, up to which it is one of them.
 const FLAT: [f64; 2] = [1e-6, 1e-4];
 
+/// Largest change of the size of a part, %.
+const LARGEST_CHANGE: f64 = 2.0;
+
 /// Moves the nodes between the corners of folded second-order elements, also of neighbours that fold by this, until none
 /// is left that straight edges mend. What was changed is a remark of the mesh.
 ///
 /// The corners stay, and so do elements that are inverted or without size by their corners.
-pub(crate) fn straighten(mesh: &mut Mesh) {
+///
+/// # Errors
+/// [`ModelError::Refused`] if the volume of a part changes too much (the area in a plane mesh).
+pub(crate) fn straighten(mesh: &mut Mesh) -> Result<(), ModelError> {
     let open: Vec<ElementId> = mesh.element_ids(mesh.dimension()).filter(|&id| folds(mesh, id)).collect();
     if open.is_empty() {
-        return;
+        return Ok(());
     }
-    let before = mesh.nodes.clone();
-    let mut sentence = mend(mesh, open.clone(), 0);
-    if !Bodies::of_mesh(mesh).overlaps().is_empty() {
-        // the surface itself is folded there
-        mesh.nodes = before;
-        sentence = mend(mesh, open, ROUNDS[2]);
+    let before = Bodies::of_mesh(mesh).sizes_of_parts();
+    let mut sentence = mend_all(mesh, open);
+    let after = Bodies::of_mesh(mesh).sizes_of_parts().into_values();
+    let changes = before.into_iter().zip(after).map(|((name, before), after)| (name, after / before - 1.0));
+    let (name, change) = changes.max_by(|a, b| a.1.abs().total_cmp(&b.1.abs())).unwrap_or_default();
+    let what = if mesh.dimension() == 2 { "area" } else { "volume" };
+    let (of, change) = (format!("the {what} of {}", part(&name)), 100.0 * change);
+    if change.abs() > LARGEST_CHANGE {
+        return Err(ModelError::Refused(format!(
+            "{}: mending folded elements would change {of} by {change:+.2} %: expected at most {LARGEST_CHANGE} %; mesh finer where thin walls are curved, or with Mesh.HighOrderOptimize = 2 in gmsh",
+            mesh.source.display()
+        )));
     }
+    // writing to a String cannot fail
+    let _ = write!(sentence, "; {of} changed by {change:+.2} %");
     mesh.notes.told.push(MeshNote::Sentence(sentence));
+    Ok(())
+}
+
+/// Mends these elements and says what moved.
+fn mend_all(mesh: &mut Mesh, open: Vec<ElementId>) -> String {
+    let before = mesh.nodes.clone();
+    let sentence = mend(mesh, open.clone(), 0);
+    if Bodies::of_mesh(mesh).overlaps().is_empty() {
+        return sentence;
+    }
+    // the surface itself is folded there
+    mesh.nodes = before;
+    mend(mesh, open, ROUNDS[2])
 }
 
 /// Mends these elements, beginning with a round, and says what moved.

@@ -4,7 +4,7 @@
 
 use super::groups::{SupportGuess, says};
 use super::partly::{PartlyHole, partly_hole};
-use crate::fe::mesh::cylinder::{Cylinder, Facet, area_vector, fit};
+use crate::fe::mesh::cylinder::{Cylinder, Facet, fit};
 use crate::fe::mesh::{Mesh, PhysicalGroup, Rim};
 use nalgebra::Vector3;
 use std::collections::HashSet;
@@ -114,7 +114,7 @@ pub(crate) fn spot(
     let mut best: Option<(f64, Vector3<f64>)> = None;
     let mut highest: Option<Vector3<f64>> = None;
     for facet in rim.facets(mesh) {
-        let corners: Vec<Vector3<f64>> = facet.corners.iter().map(|&c| Vector3::from(c)).collect();
+        let corners: Vec<Vector3<f64>> = facet.corners().iter().map(|&c| Vector3::from(c)).collect();
         let is_free = |corner: &&Vector3<f64>| !held.contains(&[corner.x, corner.y, corner.z].map(f64::to_bits));
         for corner in corners.iter().filter(is_free) {
             if highest.is_none_or(|other| height(corner) > height(&other)) {
@@ -140,7 +140,7 @@ pub(crate) fn spot(
 
 /// Unit normal of a face away from its element; `None` for a face without area.
 fn outwards(facet: &Facet, corners: &[Vector3<f64>]) -> Option<Vector3<f64>> {
-    let normal = area_vector(&facet.corners).try_normalize(f64::MIN_POSITIVE)?;
+    let normal = facet.area().try_normalize(f64::MIN_POSITIVE)?;
     let inside = Vector3::from(facet.inside?);
     let out = normal.dot(&(corners[0] - inside));
     Some(if out < 0.0 { -normal } else { normal })

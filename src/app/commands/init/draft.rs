@@ -49,7 +49,7 @@ impl Draft {
         let mut mesh = Mesh::read(request.mesh, LengthUnit::Metre)?;
         if request.straighten {
             // a hole whose edges are straight now is none that a ring could be tied to
-            straighten(&mut mesh);
+            straighten(&mut mesh)?;
         }
         let inspection = Inspection::of_mesh(&mesh, None);
         let found = find(request, &mut mesh, &inspection)?;

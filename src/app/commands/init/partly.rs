@@ -3,7 +3,7 @@
 //! Faces that meet at a small angle are one patch; the largest patch that is a hole says the cylinder, and every face of the group that
 //! lies on it counts.
 
-use crate::fe::mesh::cylinder::{Cylinder, Facet, TOLERANCE, area_vector, fit};
+use crate::fe::mesh::cylinder::{Cylinder, Facet, TOLERANCE, fit};
 use nalgebra::Vector3;
 use std::collections::HashMap;
 
@@ -28,7 +28,7 @@ pub(crate) struct PartlyHole {
 
 /// The hole of a group that is none as a whole; `corners` are the nodes at each facet's corners.
 pub(crate) fn partly_hole(facets: &[Facet], corners: &[Vec<usize>]) -> Option<PartlyHole> {
-    let sizes: Vec<f64> = facets.iter().map(|facet| area_vector(&facet.corners).norm()).collect();
+    let sizes: Vec<f64> = facets.iter().map(|facet| facet.area().norm()).collect();
     let total: f64 = sizes.iter().sum();
     let mut best: Option<(f64, Cylinder)> = None;
     for patch in patches(facets, corners) {
@@ -37,7 +37,7 @@ pub(crate) fn partly_hole(facets: &[Facet], corners: &[Vec<usize>]) -> Option<Pa
             continue;
         }
         let own: Vec<Facet> = patch.iter().map(|&at| facets[at].clone()).collect();
-        let nodes: Vec<[f64; 3]> = own.iter().flat_map(|facet| facet.corners.clone()).collect();
+        let nodes: Vec<[f64; 3]> = own.iter().flat_map(|facet| facet.nodes.clone()).collect();
         let found = fit(&own, &nodes).filter(|found| found.hole == Some(true) && found.is_round());
         best = found.map(|found| (area, found)).or(best);
     }
@@ -51,7 +51,7 @@ pub(crate) fn partly_hole(facets: &[Facet], corners: &[Vec<usize>]) -> Option<Pa
     let (mut curved, mut flat) = (0.0, 0.0);
     for (facet, size) in facets.iter().zip(&sizes) {
         let across = along(facet);
-        if facet.corners.iter().all(on) && !across {
+        if facet.nodes.iter().all(on) && !across {
             curved += size;
         } else if across {
             flat += size;
@@ -62,7 +62,7 @@ pub(crate) fn partly_hole(facets: &[Facet], corners: &[Vec<usize>]) -> Option<Pa
 
 /// Unit normal; `None` for a face without area.
 fn normal(facet: &Facet) -> Option<Vector3<f64>> {
-    area_vector(&facet.corners).try_normalize(f64::MIN_POSITIVE)
+    facet.area().try_normalize(f64::MIN_POSITIVE)
 }
 
 /// Facets by their places, those together that meet smoothly at an edge (curves: at a node).
@@ -108,38 +108,41 @@ fn patches(facets: &[Facet], corners: &[Vec<usize>]) -> Vec<Vec<usize>> {
 #[cfg(test)]
 mod tests {
     use super::partly_hole;
+    use crate::fe::mesh::ElementKind;
     use crate::fe::mesh::cylinder::Facet;
     use std::f64::consts::{PI, TAU};
 
-    /// A bore of radius 23.5 and length 14, and a shoulder beside it down to radius 20.
-    #[test]
-    fn a_bore_named_with_its_shoulder_is_told() {
-        let round = 24;
-        let ring = |radius: f64, z: f64| -> Vec<[f64; 3]> {
-            (0..round)
-                .map(|k| TAU * f64::from(k) / f64::from(round))
-                .map(|a| [radius * a.cos(), radius * a.sin(), z])
-                .collect()
+    /// Facets, and the nodes at their corners, of a bore of radius 23.5 and length 14, and of a shoulder beside it down to radius 20.
+    fn bore_and_shoulder(kind: ElementKind, round: usize) -> (Vec<Facet>, Vec<Vec<usize>>) {
+        let at = |radius: f64, step: f64, z: f64| {
+            let angle = TAU * step / round as f64;
+            [radius * angle.cos(), radius * angle.sin(), z]
         };
-        let nodes = [ring(23.5, 0.0), ring(23.5, 14.0), ring(20.0, 14.0)].concat();
-        let n = round as usize;
         let (mut facets, mut corners) = (Vec::new(), Vec::new());
-        for (low, inwards) in [(0, 1.5), (n, 0.0)] {
-            for k in 0..n {
-                let next = (k + 1) % n;
-                let own = vec![low + k, low + next, low + n + next, low + n + k];
-                let at: Vec<[f64; 3]> = own.iter().map(|&node| nodes[node]).collect();
-                let mut inside = [0.0; 3];
-                for axis in 0..3 {
-                    inside[axis] = at.iter().map(|corner| corner[axis] / 4.0).sum();
-                }
+        for (ring, [(r, z), (s, t)]) in
+            [[(23.5, 0.0), (23.5, 14.0)], [(23.5, 14.0), (20.0, 14.0)]].into_iter().enumerate()
+        {
+            for k in 0..round {
+                let (from, half, to) = (k as f64, k as f64 + 0.5, k as f64 + 1.0);
+                let mut nodes = vec![at(r, from, z), at(r, to, z), at(s, to, t), at(s, from, t)];
+                let (middle, height) = (0.5 * (r + s), 0.5 * (z + t));
+                nodes.extend([at(r, half, z), at(middle, to, height), at(s, half, t), at(middle, from, height)]);
+                nodes.truncate(kind.nodes());
                 // outside of the bore, behind the shoulder
-                let scale = 1.0 + inwards * 0.1;
-                inside = [scale * inside[0], scale * inside[1], inside[2] + if inwards > 0.0 { 0.0 } else { 1.0 }];
-                facets.push(Facet { corners: at, inside: Some(inside) });
-                corners.push(own);
+                let inside = if ring == 0 { at(1.1 * r, half, height) } else { at(middle, half, 15.0) };
+                facets.push(Facet { kind, nodes, inside: Some(inside) });
+                let next = (k + 1) % round;
+                corners.push(
+                    [(ring, k), (ring, next), (ring + 1, next), (ring + 1, k)].map(|(row, k)| row * round + k).to_vec(),
+                );
             }
         }
+        (facets, corners)
+    }
+
+    #[test]
+    fn a_bore_named_with_its_shoulder_is_told() {
+        let (facets, corners) = bore_and_shoulder(ElementKind::Quad4, 24);
         let found = partly_hole(&facets, &corners).unwrap();
         assert!((found.cylinder.radius - 23.5).abs() < 1e-9);
         assert!(found.shoulder);
@@ -147,6 +150,14 @@ mod tests {
         let (bore, shoulder) =
             (2.0 * 24.0 * 23.5 * (PI / 24.0).sin() * 14.0, 12.0 * (TAU / 24.0).sin() * (23.5 * 23.5 - 400.0));
         assert!((found.share - bore / (bore + shoulder)).abs() < 1e-9, "{}", found.share);
-        assert!(partly_hole(&facets[n..], &corners[n..]).is_none());
+        assert!(partly_hole(&facets[24..], &corners[24..]).is_none());
+    }
+
+    /// Six curved faces meet at 60 degrees: each tells the cylinder.
+    #[test]
+    fn so_is_one_of_six_curved_faces_a_turn() {
+        let (facets, corners) = bore_and_shoulder(ElementKind::Quad8, 6);
+        let found = partly_hole(&facets, &corners).unwrap();
+        assert!((found.cylinder.radius - 23.5).abs() < 1e-9 && found.shoulder, "{found:?}");
     }
 }

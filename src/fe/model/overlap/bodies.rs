@@ -1,9 +1,11 @@
 //! The elements that are searched, with the names of their parts.
 
-use crate::fe::element::continuum::measure;
+use crate::fe::element::continuum::{measure, shape_derivatives};
 use crate::fe::mesh::{BoundingBox, ElementKind, Mesh, sorted_corners};
 use crate::fe::model::{HousingElements, HousingPart};
-use nalgebra::Vector3;
+use nalgebra::{Matrix3, Vector3};
+use rayon::prelude::*;
+use std::collections::BTreeMap;
 
 /// Distance below which two points are in one place, relative to the diagonal of all bodies. gmsh places coincident
 /// geometry within 1e-8 of its size and single precision keeps 6e-8; an element of a mesh of 1e7 has edges of 1e-3.
@@ -20,6 +22,8 @@ pub(super) struct Solid<'m> {
     pub(super) nodes: &'m [usize],
     /// Index into the names of the parts.
     pub(super) part: usize,
+    /// Whether nodes behind the corners are not where straight edges and faces have them.
+    pub(super) curved: bool,
 }
 
 impl Solid<'_> {
@@ -59,7 +63,7 @@ impl<'m> Bodies<'m> {
         let solids = mesh.element_ids(dimension.max(2)).map(|id| {
             let block = &mesh.blocks[id.block];
             let (tag, nodes) = (block.tags[id.index], block.nodes_of(id.index));
-            Solid { tag, kind: block.kind, nodes, part: part[id.block][id.index] }
+            Solid { tag, kind: block.kind, nodes, part: part[id.block][id.index], curved: false }
         });
         Self::new(&mesh.nodes, solids.collect(), parts)
     }
@@ -75,17 +79,27 @@ impl<'m> Bodies<'m> {
             kind: element.kind,
             nodes: elements.nodes(element),
             part: element.part,
+            curved: false,
         });
         Self::new(points, solids.collect(), parts.iter().map(|part| part.group.clone()).collect())
     }
 
-    fn new(points: &'m [[f64; 3]], solids: Vec<Solid<'m>>, parts: Vec<String>) -> Self {
+    fn new(points: &'m [[f64; 3]], mut solids: Vec<Solid<'m>>, parts: Vec<String>) -> Self {
         let corners = solids.iter().flat_map(|solid| solid.corners());
         let extent = BoundingBox::of(corners.map(|&node| points[node]));
         let tolerance = match solids.is_empty() {
             true => 0.0,
             false => SAME_PLACE * extent.diagonal(),
         };
+        let place = |node: usize| Vector3::from(points[node]);
+        solids.par_iter_mut().for_each(|solid| {
+            let (corners, behind) = solid.nodes.split_at(solid.kind.corners());
+            solid.curved = solid.kind.beyond_corners().zip(behind).any(|(around, &node)| {
+                let mean =
+                    around.iter().map(|&local| place(corners[local])).sum::<Vector3<f64>>() / around.len() as f64;
+                (place(node) - mean).norm() > tolerance
+            });
+        });
         Self { points, solids, parts, tolerance }
     }
 
@@ -114,6 +128,27 @@ impl<'m> Bodies<'m> {
         measure(solid.kind, &coordinates).ok()
     }
 
+    /// Signed area (m^2) or volume (m^3) of every part that has one by its elements' own maps: what folds counts against it.
+    pub(in crate::fe::model) fn sizes_of_parts(&self) -> BTreeMap<String, f64> {
+        let mut sizes = BTreeMap::new();
+        for solid in &self.solids {
+            let points = solid.kind.mass_rule().points().iter();
+            let size = points.map(|point| {
+                let slopes = shape_derivatives(solid.kind, point.natural);
+                let mut jacobian = Matrix3::from_diagonal(&Vector3::z());
+                if solid.kind.dimension() == 3 {
+                    jacobian = Matrix3::zeros();
+                }
+                for (&node, slope) in solid.nodes.iter().zip(slopes) {
+                    jacobian += Vector3::from(self.points[node]) * Vector3::from(slope).transpose();
+                }
+                point.weight * jacobian.determinant()
+            });
+            *sizes.entry(self.parts[solid.part].clone()).or_default() += size.sum::<f64>();
+        }
+        sizes
+    }
+
     pub(super) fn names(&self, parts: [usize; 2]) -> [String; 2] {
         parts.map(|part| self.parts[part].clone())
     }
@@ -139,7 +174,7 @@ pub(super) fn both(parts: &[String; 2]) -> String {
 }
 
 /// A part in words; elements in no group are of the mesh.
-pub(super) fn part(name: &str) -> String {
+pub(in crate::fe::model) fn part(name: &str) -> String {
     if name == NO_GROUP { "the mesh".to_owned() } else { format!("the part \"{name}\"") }
 }
 

@@ -24,6 +24,7 @@ mod touching;
 
 pub use apart::Apart;
 pub use bodies::Bodies;
+pub(super) use bodies::part;
 pub use crossing::Crossing;
 pub use doubled::{Doubled, MixedOrders};
 pub use inside::{Overlap, OverlapRule};

@@ -1,11 +1,11 @@
-//! What an element fills, by the planes of its faces.
+//! What an element fills, by the planes of its faces and its own map.
 //!
 //! Boxes in a tree: which of many hold a point.
 
 use super::bodies::{Bodies, Solid};
-use crate::fe::element::continuum::shape_values;
+use crate::fe::element::continuum::{shape, shape_values};
 use crate::fe::mesh::{BoundingBox, ElementKind, Face};
-use nalgebra::Vector3;
+use nalgebra::{Matrix3, Vector3};
 
 /// How far behind the plane of each face a point must be, relative to the element's own centre, to be within it.
 /// Neighbours in a valid mesh have the plane of their common face between their centres, that is at a ratio below 0.
@@ -19,13 +19,13 @@ pub(super) fn centre(bodies: &Bodies, solid: &Solid) -> Vector3<f64> {
 
 /// The point of an element or a face where its natural coordinates have the mean of the corners.
 fn blended(bodies: &Bodies, kind: ElementKind, nodes: &[usize]) -> Vector3<f64> {
-    let corners = &kind.natural_nodes()[..kind.corners()];
-    let natural = [0, 1, 2].map(|axis| {
-        let sum: f64 = corners.iter().map(|corner| corner[axis]).sum();
-        sum / corners.len() as f64
-    });
-    let terms = nodes.iter().zip(shape_values(kind, natural));
+    let terms = nodes.iter().zip(shape_values(kind, natural_centre(kind).into()));
     terms.fold(Vector3::zeros(), |sum, (&node, value)| sum + Vector3::from(bodies.points[node]) * value)
+}
+
+fn natural_centre(kind: ElementKind) -> Vector3<f64> {
+    let corners = &kind.natural_nodes()[..kind.corners()];
+    corners.iter().map(|&corner| Vector3::from(corner)).sum::<Vector3<f64>>() / corners.len() as f64
 }
 
 /// Normal of a face by its corners, as long as twice its area; of an edge in the plane, as long as the edge. Its sign is
@@ -39,26 +39,62 @@ pub(in crate::fe::model) fn normal(corners: &[Vector3<f64>]) -> Vector3<f64> {
     }
 }
 
-/// Whether a point lies within an element: behind the planes of all its faces as seen from its centre `own`.
+/// Whether a point lies within an element: behind the planes of all its faces as seen from its centre `own`. Each plane has
+/// the normal of the face's corners and passes through their mean.
 ///
-/// Each plane has the normal of the face's corners. It passes through their mean and, of a curved face, through the
-/// face's own middle too: between chord and curve a point counts as outside.
+/// A curved element holds what is behind these planes in its natural coordinates. They are sought where the point is
+/// behind each face's plane, or behind that through the face's own middle.
 pub(super) fn holds(bodies: &Bodies, solid: &Solid, own: &Vector3<f64>, point: &Vector3<f64>) -> bool {
-    let behind = |normal: &Vector3<f64>, anchor: &Vector3<f64>| {
-        let [depth, limit] = [point, own].map(|place| normal.dot(&(place - anchor)));
-        depth * limit > DEPTH * limit * limit
+    let place = |local: usize| Vector3::from(bodies.points[solid.nodes[local]]);
+    solid.kind.faces().iter().all(|face| {
+        let (normal, mean) = plane(face, place);
+        is_behind(&normal, &mean, own, point)
+            || solid.curved && is_behind(&normal, &bodies.middle(solid, face), own, point)
+    }) && (!solid.curved || maps_to(solid.kind, place, point))
+}
+
+/// Whether a point is on the side of a plane on which an element's centre `own` is, and deep enough.
+fn is_behind(normal: &Vector3<f64>, anchor: &Vector3<f64>, own: &Vector3<f64>, point: &Vector3<f64>) -> bool {
+    let [depth, limit] = [point, own].map(|place| normal.dot(&(place - anchor)));
+    depth * limit > DEPTH * limit * limit
+}
+
+/// Steps of Newton's method, and the longest of them in natural coordinates.
+const STEPS: usize = 30;
+const LONGEST: f64 = 0.5;
+
+/// Whether an element of nodes at these places has the point within it, by Newton's method from its centre and from the
+/// middles between that and the corners: of what an element maps to a point, some may be outside of it.
+fn maps_to(kind: ElementKind, place: impl Fn(usize) -> Vector3<f64>, point: &Vector3<f64>) -> bool {
+    let corner = |local: usize| Vector3::from(kind.natural_nodes()[local]);
+    let centre = natural_centre(kind);
+    let is_inside = |natural: &Vector3<f64>| {
+        kind.faces().iter().all(|face| {
+            let (normal, mean) = plane(face, corner);
+            is_behind(&normal, &mean, &centre, natural)
+        })
     };
-    let faces = solid.kind.faces();
-    let flat = faces.iter().all(|face| {
-        let (normal, mean) = plane(bodies, solid, face);
-        behind(&normal, &mean)
-    });
-    let is_curved = solid.nodes.len() > solid.kind.corners();
-    flat && (!is_curved
-        || faces.iter().all(|face| {
-            let (normal, _) = plane(bodies, solid, face);
-            behind(&normal, &bodies.middle(solid, face))
-        }))
+    let starts = std::iter::once(centre).chain((0..kind.corners()).map(|local| 0.5 * (centre + corner(local))));
+    starts.into_iter().any(|mut natural| {
+        for _ in 0..STEPS {
+            let (values, derivatives) = shape(kind, natural.into());
+            let mut gap = *point;
+            let mut jacobian = Matrix3::zeros();
+            for local in 0..kind.nodes() {
+                gap -= place(local) * values[local];
+                jacobian += place(local) * Vector3::from(derivatives[local]).transpose();
+            }
+            if kind.dimension() == 2 {
+                jacobian[(2, 2)] = 1.0;
+            }
+            let Some(step) = jacobian.try_inverse().map(|inverse| inverse * gap) else { break };
+            natural += step * (LONGEST / step.norm()).min(1.0);
+            if step.norm() < 1e-9 {
+                return is_inside(&natural);
+            }
+        }
+        false
+    })
 }
 
 /// Corners of a face of an element.
@@ -66,16 +102,15 @@ pub(super) fn corners_of(solid: &Solid, face: &Face) -> Vec<usize> {
     face.nodes[..face.kind.corners()].iter().map(|&local| solid.nodes[local]).collect()
 }
 
-/// Normal and mean of the corners of a face.
-fn plane(bodies: &Bodies, solid: &Solid, face: &Face) -> (Vector3<f64>, Vector3<f64>) {
+/// Normal and mean of the corners of a face of an element whose nodes are at these places.
+fn plane(face: &Face, place: impl Fn(usize) -> Vector3<f64>) -> (Vector3<f64>, Vector3<f64>) {
     let count = face.kind.corners();
     let mut places = [Vector3::zeros(); 4];
-    for (place, &local) in places.iter_mut().zip(&face.nodes[..count]) {
-        *place = Vector3::from(bodies.points[solid.nodes[local]]);
+    for (own, &local) in places.iter_mut().zip(&face.nodes[..count]) {
+        *own = place(local);
     }
     let places = &places[..count];
-    let sum = places.iter().fold(Vector3::zeros(), |sum, place| sum + place);
-    (normal(places), sum / count as f64)
+    (normal(places), places.iter().sum::<Vector3<f64>>() / count as f64)
 }
 
 impl Bodies<'_> {

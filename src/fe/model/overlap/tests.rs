@@ -150,6 +150,44 @@ fn rings_in_one_another_overlap() {
     assert!((overlaps[0].size / area - 1.0).abs() < 1e-3, "{}", overlaps[0].size);
 }
 
+/// Two Tet10 on one face in a wall of 1 mm about a radius of 70 mm (lengths in mm): by the planes of its straight faces each holds
+/// the centre of the other, by its own map it does not. A third one that lies in the first is found.
+#[test]
+fn curved_tetrahedra_are_judged_by_their_own_map() {
+    let places = [
+        [0.0, 0.0, 0.0],
+        [-9.0, 0.3, 12.1],
+        [-2.2, 12.7, 7.1],
+        [-5.0, 0.3, 5.8],
+        [-1.4, 6.3, 3.4],
+        [-6.0, 6.7, 9.4],
+        [-4.1, -1.0, 2.8],
+        [-1.2, 12.3, 4.1],
+        [5.1, 5.2, -4.3],
+        [-2.8, 5.7, 3.2],
+        [1.7, 8.8, -0.3],
+        [0.2, 2.1, -1.1],
+        [-2.0, -0.5, 1.1],
+        [-1.7, 12.5, 5.6],
+        [2.1, 2.4, -2.2],
+        [-0.8, 6.1, 1.7],
+        [-5.6, 6.5, 7.9],
+    ];
+    let tets = [[7, 6, 8, 0, 9, 11, 10, 15, 14, 12], [0, 7, 1, 2, 15, 16, 3, 4, 5, 13]];
+    let mut mesh = empty();
+    add(&mut mesh, "wall", ElementKind::Tet10, &places, &tets.map(|tet: [usize; 10]| tet.to_vec()));
+    assert_eq!(Bodies::of_mesh(&mesh).overlaps(), []);
+    // about the centre of the first, a tenth as large
+    let first = tets[0].map(|node| places[node]);
+    let weight = |local: usize| if local < 4 { -0.125 } else { 0.25 };
+    let centre = [0, 1, 2].map(|d| (0..10).map(|local| weight(local) * first[local][d]).sum::<f64>());
+    let small = first.map(|place| [0, 1, 2].map(|d| centre[d] + 0.1 * (place[d] - centre[d])));
+    add(&mut mesh, "within", ElementKind::Tet10, &small, &[(0..10).collect()]);
+    let overlaps = Bodies::of_mesh(&mesh).overlaps();
+    assert_eq!(overlaps.len(), 1, "{overlaps:?}");
+    assert_eq!((overlaps[0].elements, overlaps[0].tags), (2, [1, 3]));
+}
+
 /// A cube as one Hex8 and again as one Hex20 on the same corners, which begins at another one.
 #[test]
 fn kinds_and_order_do_not_hide_a_double() {
