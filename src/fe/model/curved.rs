@@ -13,7 +13,10 @@ use rayon::prelude::*;
 /// Sagitta over thickness from which on a wall is told.
 const CURVED: f64 = 0.2;
 
-/// Share of a part's volume from which on it counts as a wall, and not as a slender element beside a hole.
+/// Longest edge over height from which on an element is one of a wall, and not of a fillet or a small hole.
+const SLENDER: f64 = 5.0;
+
+/// Share of a part's volume that is told. In parts from CAD with many small holes and fillets slender curved elements are up to 5 %.
 const SHARE: f64 = 0.1;
 
 /// Curved elements of second order alone across thin walls, of one part.
@@ -67,13 +70,14 @@ impl HousingModel {
         most.and_then(|(_, found)| found)
     }
 
-    /// How far the middle of an edge is from that of its ends, over the least height of the element; zero of first order.
+    /// How far the middle of an edge is from that of its ends, over the least height of a slender element; zero of others.
     fn sagitta(&self, element: &HousingElement) -> f64 {
         let (kind, nodes) = (element.kind, self.elements.nodes(element));
         let edges = kind.middle_edges().iter().zip(&nodes[kind.corners()..]);
-        let offsets =
-            edges.map(|(&[a, b], &middle)| (self.at(middle) - 0.5 * (self.at(nodes[a]) + self.at(nodes[b]))).norm());
-        let offset = offsets.fold(0.0, f64::max);
+        let [offset, longest] = edges.fold([0.0_f64; 2], |[offset, longest], (&[a, b], &middle)| {
+            let [a, b, middle] = [nodes[a], nodes[b], middle].map(|node| self.at(node));
+            [offset.max((middle - 0.5 * (a + b)).norm()), longest.max((b - a).norm())]
+        });
         if offset <= 0.0 {
             return 0.0;
         }
@@ -87,6 +91,7 @@ impl HousingModel {
             (4 | 5, 3) => 3.0,
             _ => 1.0,
         };
-        offset * areas.fold(0.0, f64::max) / (of_base * self.volume(element))
+        let height = of_base * self.volume(element) / areas.fold(0.0, f64::max);
+        if longest > SLENDER * height { offset / height } else { 0.0 }
     }
 }
