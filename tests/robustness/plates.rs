@@ -115,3 +115,24 @@ fn curved_walls_are_told() {
     assert_eq!([coarse, fine], [true, false]);
     assert!(high > 1.3 * right, "{high} and {right} Hz");
 }
+
+/// Thin plates of two materials, on a soft spring, and held in its plane, which cannot bend.
+#[test]
+fn plates_of_unlike_layers_and_on_springs_are_told() {
+    let folder = scratch("unlike-plates");
+    let mut grid = Grids::default();
+    let side = steps(0.0, 0.096, 8);
+    for (name, from) in [("a", 0.0), ("b", 0.0005)] {
+        grid.solid(name, [&side, &side, &steps(from, from + 0.0005, 1)], true);
+    }
+    grid.write(&folder);
+    let parts = "parts = [{ group = 'a', material = 'steel' }, { group = 'b', material = 'aluminium' }]";
+    for (held, told) in [
+        ("", true),
+        ("supports = [{ group = 'a_bottom', spring = { z = 1 } }]", true),
+        ("supports = [{ group = 'a_bottom', fixed = ['z'] }]", false),
+    ] {
+        let (warnings, _) = result(&folder, &modes(&folder, &format!("{parts}\n{held}")));
+        assert_eq!(warnings.contains("in thin plates"), told, "{held}: {warnings}");
+    }
+}
