@@ -18,7 +18,7 @@ use crate::report::{counted, mass_in_words, significant, size_in_words};
 const DENSITIES: [(f64, &str); 2] = [(2700.0, "of aluminium"), (7850.0, "of steel")];
 
 /// What to do with a mesh of surfaces in space.
-const SHELLS: &str = "mesh the volume (gmsh FILE.geo -3 -o FILE.msh), or draw a plane model in x and y";
+const SHELLS: &str = "mesh the volume (gmsh PART.step -3 -order 2 -o PART.msh, with -algo hxt or smaller elements where gmsh makes no volumes), or draw a plane model in x and y";
 
 /// Inspects a mesh, or that of a case; writes `inspect.json` if a folder was named with `--out`.
 ///

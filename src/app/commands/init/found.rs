@@ -114,7 +114,7 @@ pub(crate) fn find<'a>(
                 "found a mesh of surfaces that reach over {} units of length along z, expected one in a plane z = const, or volumes",
                 page::number(extent[2], 4)
             ),
-            "shells are not modelled: mesh the volume, gmsh PART.step -3 -order 2 -o PART.msh".to_owned(),
+            "shells are not modelled: mesh the volume, gmsh PART.step -3 -order 2 -o PART.msh, with -algo hxt or smaller elements where gmsh makes no volumes".to_owned(),
         ));
     }
     let rim = Rim::of(mesh, dimension);
