@@ -153,7 +153,7 @@ fn housing_doubts(mesh: &Mesh, model: &HousingModel) -> Vec<String> {
     });
     let curved = model.curved_walls().map(|found| {
         format!(
-            "elements of second order ({}) of part \"{}\" stand alone across curved walls, where bending stretches them: frequencies may be 10 to 40 % too high where the sagitta of an edge is 0.2 of the thickness, and several times at 0.5; it is up to {}, at element {}; give shorter edges along the curve",
+            "elements of second order ({}) of part \"{}\" stand alone across curved walls, where bending stretches them: frequencies may be 40 % too high where the sagitta of an edge is 0.4 of the thickness, and several times at 2; it is up to {}, at element {}; give shorter edges along the curve",
             found.elements, model.description.parts[found.part].group, significant(found.sagitta, 2), found.tag
         )
     });
