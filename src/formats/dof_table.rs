@@ -26,7 +26,7 @@ const COLUMNS: [&str; 12] =
 pub enum DofBody {
     /// To the mesh of the housing.
     Housing,
-    /// To the bearing's outer ring.
+    /// To a bearing's outer ring.
     Ring,
     /// To none that is known: an interface coordinate of a superelement, numbered from 0.
     Interface,
@@ -53,7 +53,7 @@ pub enum DofDirection {
 pub struct DofLabel {
     /// Where its node belongs.
     pub body: DofBody,
-    /// The node: gmsh's tag; or a ring's node, an interface coordinate or a mode from 0.
+    /// The node: gmsh's tag; or a ring's node, counted on over several rings, an interface coordinate or a mode, from 0.
     pub node: u64,
     /// What it is.
     pub direction: DofDirection,

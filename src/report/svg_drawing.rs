@@ -75,16 +75,15 @@ impl View {
 
 /// Points that bound the drawing.
 fn extremes(drawing: &Drawing) -> impl Iterator<Item = Point> + '_ {
-    let ring = drawing.ring.iter();
-    let circles = ring
-        .clone()
+    let rings = || drawing.rings.iter();
+    let circles = rings()
         .map(|r| r.circle)
         .chain(drawing.races.iter().copied())
         .chain(drawing.balls.iter().copied())
         .chain(drawing.dents.iter().map(|d| d.race));
     circles
         .flat_map(|c| (0..4).map(move |k| c.centre.polar(c.radius, f64::from(k) * FRAC_PI_2)))
-        .chain(ring.flat_map(|r| r.nodes.iter().copied()))
+        .chain(rings().flat_map(|r| r.nodes.iter().copied()))
         .chain(drawing.mesh_edges.iter().flatten().copied())
         .chain(drawing.springs.iter().map(|s| s.at))
         .chain(drawing.sensors.iter().map(|s| s.at))
@@ -106,7 +105,7 @@ pub(super) fn draw(drawing: &Drawing) -> Result<String, ReportError> {
     for race in &drawing.races {
         circle(&mut out, RACE, &view, race);
     }
-    if let Some(ring) = &drawing.ring {
+    for ring in &drawing.rings {
         circle(&mut out, RING, &view, &ring.circle);
         for node in &ring.nodes {
             svg::circle(&mut out, NODE, view.px(*node), NODE_RADIUS, "");
@@ -235,12 +234,13 @@ fn key(out: &mut String, drawing: &Drawing) {
     let ball = |out: &mut String, at| svg::circle(out, BALL, at, 8.0, "");
     let spring = |out: &mut String, [x, y]: [f64; 2]| draw_spring(out, [x, y - 11.0], -FRAC_PI_2);
     let sensor = |out: &mut String, [x, y]: [f64; 2]| draw_sensor(out, [x - 28.0, y], Some(0.0), "");
-    let nodes = drawing.ring.as_ref().map_or(0, |ring| ring.nodes.len());
+    let nodes = drawing.rings.iter().map(|ring| ring.nodes.len()).sum();
+    let rings = if drawing.rings.len() > 1 { "bearing rings" } else { "bearing ring" };
     // each sign, how many there are, and what it is
     type Sign<'a> = &'a dyn Fn(&mut String, [f64; 2]);
     let entries: [(Sign<'_>, usize, String); 7] = [
         (&mesh, drawing.mesh_edges.len(), "housing mesh".to_owned()),
-        (&ring, usize::from(drawing.ring.is_some()), format!("bearing ring, {}", count(nodes, "node"))),
+        (&ring, drawing.rings.len(), format!("{rings}, {}", count(nodes, "node"))),
         (&stroke(RACE), drawing.races.len(), "races".to_owned()),
         (&ball, drawing.balls.len(), count(drawing.balls.len(), "ball")),
         (&spring, drawing.springs.len(), count(drawing.springs.len(), "support spring")),
@@ -328,8 +328,8 @@ pub struct Drawing {
     pub caption: Option<String>,
     /// Edges of the mesh as lines through points.
     pub mesh_edges: Vec<Vec<Point>>,
-    /// The finite-element ring.
-    pub ring: Option<Ring>,
+    /// The finite-element rings.
+    pub rings: Vec<Ring>,
     /// Races and shaft: circles without filling.
     pub races: Vec<Circle>,
     /// Balls: filled circles.
@@ -362,10 +362,10 @@ mod tests {
         Drawing {
             title: "Bearing <1>".to_owned(),
             mesh_edges: vec![vec![CENTRE.polar(6e-3, 0.0), CENTRE.polar(9e-3, 0.0)]],
-            ring: Some(Ring {
+            rings: vec![Ring {
                 circle: Circle { centre: CENTRE, radius: 5e-3 },
                 nodes: (0..72).map(|k| CENTRE.polar(5e-3, f64::from(k) * PI / 36.0)).collect(),
-            }),
+            }],
             races: vec![race],
             balls: (0..7).map(|k| Circle { centre: CENTRE.polar(3e-3, f64::from(k)), radius: 1e-3 }).collect(),
             springs: (0..36)

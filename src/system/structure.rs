@@ -1,8 +1,8 @@
-//! The linear structure that the bearing's outer ring belongs to: ring alone, or ring and condensed
+//! The linear structure that the outer rings of bearings belong to: rings alone, or rings and condensed
 //! housing.
 
 use super::SystemError;
-use crate::fe::model::Ring;
+use crate::fe::model::{Ring, RingSeat, Rings};
 use crate::fe::reduction::Superelement;
 use crate::numerics::linalg::{
     DenseCholesky, DenseMatrix, EigenProblem, SparseCholesky, placed, symmetric_generalised_eigen,
@@ -32,11 +32,11 @@ pub struct Sensor {
     pub row: Vec<f64>,
 }
 
-/// Ring and housing in one pair of matrices; coordinates: ring displacements first (three a node, six in space),
-/// then the amplitudes of the housing's fixed-interface modes.
+/// Rings and housing in one pair of matrices; coordinates: displacements of the rings first, one ring after the other (three a node,
+/// six in space), then the amplitudes of the housing's fixed-interface modes.
 #[derive(Debug, Clone)]
 pub struct Structure {
-    ring: Ring,
+    rings: Rings,
     stiffness: DenseMatrix,
     mass: DenseMatrix,
     gravity: Vec<f64>,
@@ -64,43 +64,50 @@ pub struct StructureModes {
 }
 
 impl Structure {
-    /// The ring on its own supports.
+    /// A ring, or several, on their own supports.
     ///
-    /// `gravity` in m/s^2 loads the ring's mass.
-    pub fn ring_alone(ring: Ring, gravity: [f64; 2]) -> Self {
-        let (stiffness, mass, load) = (ring.stiffness().clone(), ring.mass().clone(), ring_gravity(&ring, gravity));
-        Self::new(ring, [stiffness, mass], load)
+    /// `gravity` (m/s^2, along the first ring's x and y) loads the rings' mass.
+    pub fn ring_alone(rings: impl Into<Rings>, gravity: [f64; 2]) -> Self {
+        let rings = rings.into();
+        let (stiffness, mass, load) = (rings.stiffness().clone(), rings.mass().clone(), rings_gravity(&rings, gravity));
+        Self::new(rings, [stiffness, mass], load)
     }
 
-    fn new(ring: Ring, [stiffness, mass]: [DenseMatrix; 2], gravity: Vec<f64>) -> Self {
-        Self { ring, stiffness, mass, gravity, sensors: Vec::new(), factor: OnceLock::new() }
+    fn new(rings: Rings, [stiffness, mass]: [DenseMatrix; 2], gravity: Vec<f64>) -> Self {
+        Self { rings, stiffness, mass, gravity, sensors: Vec::new(), factor: OnceLock::new() }
     }
 
-    /// The ring tied to a condensed housing whose interface is the ring's displacements.
+    /// Rings tied to a condensed housing whose interface is their displacements.
     ///
     /// # Errors
     /// [`SystemError::OtherSize`] if the superelement has another interface.
-    pub fn with_housing(ring: Ring, housing: &Superelement, gravity: [f64; 2]) -> Result<Self, SystemError> {
-        let interface = ring.dof();
+    pub fn with_housing(
+        rings: impl Into<Rings>,
+        housing: &Superelement,
+        gravity: [f64; 2],
+    ) -> Result<Self, SystemError> {
+        let rings = rings.into();
+        let interface = rings.dof();
         if housing.interface_dof != interface {
+            let whose = if rings.seats().len() > 1 { "the rings have" } else { "the ring has" };
             return Err(SystemError::OtherSize(format!(
-                "the ring has {interface} degrees of freedom, the superelement's interface {}",
+                "{whose} {interface} degrees of freedom, the superelement's interface {}",
                 housing.interface_dof
             )));
         }
-        let with_ring = |housing: &DenseMatrix, ring: &DenseMatrix| {
+        let with_rings = |housing: &DenseMatrix, rings: &DenseMatrix| {
             let mut sum = housing.clone();
             let mut interface = sum.submatrix_mut(0, 0, interface, interface);
-            interface += ring;
+            interface += rings;
             sum
         };
         let mut load = housing.gravity_load(gravity);
-        for (total, own) in load.iter_mut().zip(ring_gravity(&ring, gravity)) {
+        for (total, own) in load.iter_mut().zip(rings_gravity(&rings, gravity)) {
             *total += own;
         }
-        let stiffness = with_ring(&housing.stiffness, ring.stiffness());
-        let mass = with_ring(&housing.mass, ring.mass());
-        Ok(Self::new(ring, [stiffness, mass], load))
+        let stiffness = with_rings(&housing.stiffness, rings.stiffness());
+        let mass = with_rings(&housing.mass, rings.mass());
+        Ok(Self::new(rings, [stiffness, mass], load))
     }
 
     /// Adds a sensor.
@@ -117,10 +124,10 @@ impl Structure {
         Ok(())
     }
 
-    /// A sensor on the ring at an angle (rad) in a direction of the plane, at the node radius.
+    /// A sensor on the first ring at an angle (rad) in a direction of the plane, at the node radius.
     pub fn ring_sensor(&self, name: &str, angle: f64, [x, y]: [f64; 2]) -> Sensor {
         let mut row = vec![0.0; self.dof()];
-        for (dof, factor) in self.ring.displacement_row(angle, [x, y, 0.0]) {
+        for (dof, factor) in self.ring().displacement_row(angle, [x, y, 0.0]) {
             row[dof] += factor;
         }
         Sensor { name: name.to_owned(), row }
@@ -131,9 +138,14 @@ impl Structure {
         self.stiffness.nrows()
     }
 
-    /// The ring.
+    /// The ring of the only bearing, or of the first; its coordinates are the first ones.
     pub fn ring(&self) -> &Ring {
-        &self.ring
+        &self.rings.first().ring
+    }
+
+    /// All rings.
+    pub fn rings(&self) -> &Rings {
+        &self.rings
     }
 
     /// Sensors in the order they were added.
@@ -141,9 +153,9 @@ impl Structure {
         &self.sensors
     }
 
-    /// Mean of the ring nodes' displacement in x and y, of a column of displacements [dof x k], m.
+    /// Mean of the first ring's nodes' displacement in x and y, of a column of displacements [dof x k], m.
     pub(super) fn ring_mean(&self, displacements: &DenseMatrix, column: usize) -> [f64; 2] {
-        let nodes = self.ring.nodes();
+        let nodes = self.ring().nodes();
         let sum =
             |component: usize| -> f64 { (0..nodes).map(|node| displacements[(3 * node + component, column)]).sum() };
         [0, 1].map(|component| sum(component) / nodes as f64)
@@ -159,7 +171,7 @@ impl Structure {
         &self.mass
     }
 
-    /// Weight of ring and housing on the coordinates \[dof\], N and N m.
+    /// Weight of rings and housing on the coordinates \[dof\], N and N m.
     pub fn gravity(&self) -> &[f64] {
         &self.gravity
     }
@@ -268,10 +280,16 @@ impl StructureModes {
     }
 }
 
-fn ring_gravity(ring: &Ring, gravity: [f64; 2]) -> Vec<f64> {
-    let fall = ring.rigid_motion(gravity[0], gravity[1], 0.0);
-    let fall = DenseMatrix::from_fn(fall.len(), 1, |row, _| fall[row]);
-    (ring.mass() * fall).col(0).iter().copied().collect()
+/// Weight of all rings on their coordinates, N and N m; `gravity` along the first ring's x and y.
+fn rings_gravity(rings: &Rings, [x, y]: [f64; 2]) -> Vec<f64> {
+    let down = rings.first().frame.vector_to_mesh([x, y, 0.0]);
+    let of_seat = |seat: &RingSeat| {
+        let along = if seat.first == 0 { [x, y, 0.0] } else { seat.frame.vector(down) };
+        let fall = seat.ring.rigid_motion_in_space(along, [0.0; 3]);
+        let fall = DenseMatrix::from_fn(fall.len(), 1, |row, _| fall[row]);
+        (seat.ring.mass() * fall).col(0).iter().copied().collect::<Vec<_>>()
+    };
+    rings.seats().iter().flat_map(of_seat).collect()
 }
 
 #[cfg(test)]

@@ -350,7 +350,7 @@ fn structural_damping_follows_the_tie() {
     assert!(tie.rotation().is_some());
     let plain = SystemMatrices::assemble(&housing.model).unwrap();
     let lossy = StructuralStiffness::assemble(&housing.model).unwrap().unwrap();
-    let coupled = CoupledMatrices::new(&plain, &tie, &ring);
+    let coupled = CoupledMatrices::new(&plain, &tie, &ring.clone().into());
     let on_ring = coupled.motions.congruent(lossy.matrix());
     let of_housing = coupled.motions.congruent(&plain.stiffness);
     let scaled = |matrix: &SparseMatrix| matrix.map(|value| eta * value);

@@ -187,7 +187,7 @@ impl Housing {
     pub fn full(&self) -> (SparseMatrix, SparseMatrix) {
         // the coupling turns the housing's displacements itself
         let matrices = SystemMatrices::assemble(&self.model).unwrap();
-        let coupled = CoupledMatrices::new(&matrices, &self.tie, &self.ring);
+        let coupled = CoupledMatrices::new(&matrices, &self.tie, &self.ring.clone().into());
         let first = coupled.stiffness.rows() - self.ring.dof();
         let (interior, ring): (Vec<usize>, Vec<usize>) = coupled.free_dofs.iter().partition(|&&dof| dof < first);
         let order = [ring, interior].concat();

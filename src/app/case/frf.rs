@@ -6,7 +6,7 @@ use super::modes::Variant;
 use super::schema::{one_of, together};
 use super::union::{exactly_one, mismatch, missing, read_as};
 use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
+use serde::{Deserialize, Serialize, de};
 
 /// Transfer paths: from every force to every sensor.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -37,6 +37,9 @@ pub struct Push {
     /// Where it acts; on a group it is shared evenly by the nodes.
     #[serde(flatten)]
     pub spot: SensorSpot,
+    /// Label of the bearing whose ring a [`SensorSpot::RingDeg`] is on, where there are several.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub bearing: Option<String>,
     /// Direction in the mesh's frame, any length but zero.
     pub direction: [f64; 3],
 }
@@ -52,6 +55,8 @@ struct PushForm {
     group: Option<String>,
     /// On the ring, at an angle in degrees.
     ring_deg: Option<f64>,
+    /// Label of the bearing whose ring `ring_deg` is on, where there are several.
+    bearing: Option<String>,
     /// A node of the mesh, by gmsh's tag.
     node: Option<u64>,
     /// The mesh's node nearest to this point, in m.
@@ -71,13 +76,26 @@ read_as!(Push, PushForm, |form| {
     let spot = exactly_one(spots, ONE)?;
     let name = form.name.unwrap_or_else(|| match &spot {
         SensorSpot::Group(group) => group.clone(),
-        SensorSpot::RingDeg(degrees) => format!("ring at {degrees} degrees"),
+        SensorSpot::RingDeg(degrees) => {
+            let ring = form.bearing.as_ref().map_or_else(|| "ring".to_owned(), |label| format!("ring {label}"));
+            format!("{ring} at {degrees} degrees")
+        }
         SensorSpot::Node(tag) => format!("node {tag}"),
         SensorSpot::Point([x, y, z]) => format!("point ({x}, {y}, {z})"),
         SensorSpot::Recovered(row) => row.clone(),
     });
-    Ok(Self { name, spot, direction: form.direction })
+    let bearing = beside_ring(form.bearing, &spot)?;
+    Ok(Self { name, spot, bearing, direction: form.direction })
 });
+
+/// The label of a bearing, which a place on its ring alone may have.
+fn beside_ring<E: de::Error>(bearing: Option<String>, spot: &SensorSpot) -> Result<Option<String>, E> {
+    match spot {
+        SensorSpot::RingDeg(_) => Ok(bearing),
+        _ if bearing.is_some() => Err(mismatch("`bearing` without `ring_deg`", "`bearing` beside `ring_deg` alone")),
+        _ => Ok(None),
+    }
+}
 
 /// An accelerometer.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -87,6 +105,9 @@ pub struct Sensor {
     /// Where it stands.
     #[serde(flatten)]
     pub spot: SensorSpot,
+    /// Label of the bearing whose ring a [`SensorSpot::RingDeg`] is on, where there are several.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub bearing: Option<String>,
     /// Direction in the mesh's frame (the ring's where there is no mesh), any length but zero; zero for
     /// [`SensorSpot::Recovered`], whose row has a direction of its own.
     #[serde(skip_serializing_if = "is_of_row")]
@@ -133,6 +154,8 @@ struct SensorForm {
     node: Option<u64>,
     /// The mesh's node nearest to this point, in m.
     point: Option<[f64; 3]>,
+    /// Label of the bearing whose ring `ring_deg` is on, where there are several.
+    bearing: Option<String>,
     /// What this row of the superelement's sensors gives; without `direction`.
     recovered: Option<String>,
     /// Direction in the mesh's frame (the ring's where there is no mesh), any length but zero.
@@ -158,5 +181,6 @@ read_as!(Sensor, SensorForm, |form| {
         (_, Some(direction)) => direction,
         (_, None) => return Err(missing("direction")),
     };
-    Ok(Self { name: form.name, spot, direction })
+    let bearing = beside_ring(form.bearing, &spot)?;
+    Ok(Self { name: form.name, spot, bearing, direction })
 });

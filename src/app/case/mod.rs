@@ -39,6 +39,7 @@ mod purpose;
 mod report;
 mod ring;
 mod schema;
+mod seat;
 mod set;
 mod spring;
 mod taken_from;
@@ -74,6 +75,7 @@ pub use purpose::{Purpose, RunCase};
 pub use report::ReportDetails;
 pub use ring::{Bond, Ring, RingSupport, Section, Tie};
 pub(in crate::app) use schema::in_words;
+pub use seat::{Seat, SeatedBearing};
 pub use set::replaced_argument;
 pub(crate) use set::split_argument;
 pub use spring::Spring;
@@ -82,7 +84,7 @@ pub use transient::{Accuracy, Analysis, Ensemble, Method, ModesKept, ScalogramWi
 /// One case: everything that a command computes from, but the mesh.
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
-#[schemars(extend("anyOf" = schema::one_of(&["housing", "ring"]), "allOf" = named_bearing::named_or_sections()))]
+#[schemars(extend("anyOf" = schema::one_of(&["housing", "ring", "bearings"]), "allOf" = named_bearing::named_or_sections()))]
 pub struct Case {
     /// What the case is about; the file's name where the file says nothing.
     #[serde(default)]
@@ -104,6 +106,9 @@ pub struct Case {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(schema_with = "bearing::named_or_table")]
     pub bearing: Option<Bearing>,
+    /// Several bearings in one housing, in the place of `ring` and `bearing`.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub bearings: Vec<SeatedBearing>,
     /// The shaft with the inner ring.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub shaft: Option<Shaft>,

@@ -32,7 +32,21 @@ pub(super) fn named_or_sections() -> Json {
 
 /// Writes a name in the place of the table as a table with a name, so that `--set bearing.KEY` finds one.
 pub(super) fn as_table(root: &mut Node) {
-    let Value::Table(keys) = &mut root.value else { return };
+    each_seat(root).into_iter().for_each(|(_, seat)| seat_as_table(seat));
+}
+
+/// The items of `bearings`, which have `bearing` and `ring`; without them the case itself.
+fn each_seat(root: &mut Node) -> Vec<(Option<usize>, &mut Node)> {
+    if !matches!(&root.value, Value::Table(keys) if keys.contains_key("bearings")) {
+        return vec![(None, root)];
+    }
+    let Value::Table(keys) = &mut root.value else { return Vec::new() };
+    let Some(Value::List(items)) = keys.get_mut("bearings").map(|list| &mut list.value) else { return Vec::new() };
+    items.iter_mut().enumerate().map(|(index, item)| (Some(index), item)).collect()
+}
+
+fn seat_as_table(seat: &mut Node) {
+    let Value::Table(keys) = &mut seat.value else { return };
     let Some(bearing) = keys.get_mut("bearing") else { return };
     if matches!(bearing.value, Value::Text(_) | Value::Integer(_)) {
         let name = bearing.clone();
@@ -45,8 +59,17 @@ pub(super) fn as_table(root: &mut Node) {
 /// # Errors
 /// A [`Fault`] for a name that the catalogue does not have.
 pub(super) fn fill(root: &mut Node) -> Result<(), Fault> {
-    as_table(root);
-    let Value::Table(keys) = &mut root.value else { return Ok(()) };
+    each_seat(root).into_iter().try_for_each(|(index, seat)| {
+        fill_seat(seat).map_err(|fault| match index {
+            Some(index) => fault.under(Step::Index(index)).under(Step::Key("bearings".to_owned())),
+            None => fault,
+        })
+    })
+}
+
+fn fill_seat(seat: &mut Node) -> Result<(), Fault> {
+    seat_as_table(seat);
+    let Value::Table(keys) = &mut seat.value else { return Ok(()) };
     let Some(Value::Table(keys)) = keys.get_mut("bearing").map(|bearing| &mut bearing.value) else { return Ok(()) };
     let Some(name) = keys.get_mut("name") else { return Ok(()) };
     if let Value::Integer(number) = name.value {
@@ -82,7 +105,7 @@ pub(super) fn fill(root: &mut Node) -> Result<(), Fault> {
     if !own_races {
         add("radial_play", Value::Float(UsualNumbers::of(bearing).play));
     }
-    let Value::Table(keys) = &mut root.value else { return Ok(()) };
+    let Value::Table(keys) = &mut seat.value else { return Ok(()) };
     if let Some(Value::Table(ring)) = keys.get_mut("ring").map(|ring| &mut ring.value) {
         let list = || Node { mark, value: Value::List(vec![Node { mark, value: section(bearing, mark) }]) };
         ring.entry("sections".to_owned()).or_insert_with(list);

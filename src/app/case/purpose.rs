@@ -44,7 +44,7 @@ impl Case {
     /// # Errors
     /// [`CaseError`] with the first table that it lacks.
     pub fn ready_for(&self, purpose: Purpose) -> Result<(), CaseError> {
-        let interface = self.ring.as_ref().is_some_and(|ring| ring.tie.is_some())
+        let interface = self.seats().iter().any(|seat| seat.ring.tie.is_some())
             || self.superelement().is_some()
             || self.condense.interface != Interface::Ring;
         let (by, needs) = match purpose {
@@ -79,7 +79,7 @@ impl Case {
     fn needed<T>(&self, by: &str, table: &str, part: Option<T>) -> Result<T, CaseError> {
         part.ok_or_else(|| {
             let what = format!("{by} needs {table}, which the case file lacks");
-            let spot = if self.ring.is_some() { "ring_deg = 270" } else { "group = \"NAME\"" };
+            let spot = if self.has_rings() { "ring_deg = 270" } else { "group = \"NAME\"" };
             let lines = match table {
                 "[frf]" => format!(" with from = [{{ {spot}, direction = [0, 1, 0] }}]"),
                 "[[sensors]]" => format!(" with name = \"P1\", {spot} and direction = [0, 1, 0]"),
@@ -120,6 +120,11 @@ impl Case {
 
     /// What an equilibrium under the load needs.
     fn at_rest(&self, by: &str) -> Result<(&Ring, &Bearing, &Shaft), CaseError> {
+        if !self.bearings.is_empty() {
+            let what = format!("{by} takes one bearing, found [[bearings]] with {}", self.bearings.len());
+            let help = "write one of them as [ring] and [bearing]; `modes`, `condense` and `frf` take several";
+            return Err(CaseError::at(self.source.path.display(), what).with_help(Some(help.to_owned())));
+        }
         let ring = self.needed(by, "[ring]", self.ring.as_ref())?;
         let bearing = self.needed(by, "[bearing]", self.bearing.as_ref())?;
         let shaft = self.needed(by, "[shaft]", self.shaft.as_ref())?;

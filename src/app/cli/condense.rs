@@ -20,9 +20,9 @@ use crate::report::{significant, trimmed};
 pub(super) fn condense(job: &Job<'_>, compare_full: bool) -> Result<Outcome, CliError> {
     let Job { case, progress, .. } = *job;
     let comparison = if compare_full { Comparison::Full } else { Comparison::None };
-    if let (Some(path), Some(ring)) = (case.superelement(), &case.ring) {
+    if let Some(path) = case.superelement() {
         progress.stage("check");
-        let (imported, _) = ImportedHousing::read(case, ring, path)?;
+        let (imported, _) = ImportedHousing::read(case, path)?;
         return check_imported(job, &imported);
     }
     let result = compute_condense(case, comparison, progress)?;

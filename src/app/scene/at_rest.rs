@@ -67,7 +67,7 @@ impl Scene {
 
     fn with_modes(run: RunCase<'_>, count: usize, watch: &impl Watch) -> Result<Self, ComputeError> {
         refuse_structural_damping(run.case)?;
-        let stage = CoupledStructure::around_ring(run.case, run.ring, count, watch)?;
+        let stage = CoupledStructure::around_rings(run.case, count, watch)?;
         watch.stage("equilibrium");
         Self::around(stage, run)
     }

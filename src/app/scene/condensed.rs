@@ -1,8 +1,8 @@
 //! The housing of a case, condensed on the interface that the case asks for.
 
 use super::housing::AssembledHousing;
-use super::places::{PlaceBodies, of_housing, of_ring};
-use super::ring::{Boundary, ring_and_tie};
+use super::places::{PlaceBodies, of_housing, of_rings};
+use super::ring::{Boundary, rings_and_tie};
 use crate::app::case::{Case, FixedInterfaceModes, Interface, Rule};
 use crate::app::error::ComputeError;
 use crate::fe::assembly::{CoupledMatrices, StructuralStiffness, SystemMatrices};
@@ -62,21 +62,19 @@ impl CondensedHousing {
             let rule = Rule::beyond(asked, limit, highest).with_help("end the band below it, or make the mesh finer");
             return Err(case.broken(&rule.at("frf.band_hz[1]")).into());
         }
-        let boundary = match (&case.condense.interface, &case.ring) {
-            (Interface::Ring, Some(asked)) => match ring_and_tie(case, asked, Some(&housing))? {
-                (ring, Some(tie)) => Boundary::Ring(Box::new((ring, tie))),
+        let boundary = match &case.condense.interface {
+            Interface::Ring if !case.has_rings() => return Ok(None),
+            Interface::Ring => match rings_and_tie(case, Some(&housing))? {
+                (rings, Some(tie)) => Boundary::Rings(Box::new((rings, tie))),
                 (_, None) => return Ok(None),
             },
-            (Interface::Ring, None) => return Ok(None),
-            (Interface::Group(group), _) => {
+            Interface::Group(group) => {
                 let group = housing.model.group_on_housing(&housing.mesh, group, "the interface")?;
                 let used = |node: &usize| housing.model.used[*node];
                 let nodes: Vec<usize> = group.nodes.iter().copied().filter(used).collect();
                 Boundary::Nodes(NodeInterface::new(&housing.model, &nodes))
             }
-            (Interface::Nodes(tags), _) => {
-                Boundary::Nodes(NodeInterface::new(&housing.model, &nodes_of(&housing, tags)?))
-            }
+            Interface::Nodes(tags) => Boundary::Nodes(NodeInterface::new(&housing.model, &nodes_of(&housing, tags)?)),
         };
         if let Boundary::Nodes(nodes) = &boundary
             && nodes.coordinates.is_empty()
@@ -103,7 +101,7 @@ impl CondensedHousing {
         drop(matrices);
         let structural = StructuralStiffness::assemble(&housing.model)?;
         let stage = Self {
-            structural: structural.map(|structural| match boundary.ring() {
+            structural: structural.map(|structural| match boundary.rings() {
                 Some((_, tie)) => structural.for_tie(tie).matrix().clone(),
                 None => structural.matrix().clone(),
             }),
@@ -145,19 +143,18 @@ impl CondensedHousing {
 
     /// The bodies that a place may be on.
     pub(crate) fn bodies(&self) -> PlaceBodies<'_> {
-        let ring = self.boundary.ring();
+        let rings = self.boundary.rings();
         PlaceBodies {
             housing: Some(&self.housing),
-            ring: ring.map(|(ring, _)| ring),
-            tie: ring.map(|(_, tie)| tie),
-            frame: *self.housing.model.frame(),
+            rings: rings.map(|(rings, _)| rings),
+            tie: rings.map(|(_, tie)| tie),
         }
     }
 
     /// Labels of the interface coordinates, in the axes that they are measured in.
     pub(crate) fn interface_labels(&self) -> Vec<DofLabel> {
         match &self.boundary {
-            Boundary::Ring(bodies) => of_ring(&bodies.0, self.housing.model.frame()),
+            Boundary::Rings(bodies) => of_rings(&bodies.0),
             Boundary::Nodes(_) => {
                 let labels = of_housing(&self.housing.model, None);
                 let driven = &self.boundary.partition().driven;
@@ -172,8 +169,8 @@ impl CondensedHousing {
         let about = model.frame().centre();
         let motions = rigid_motions(model.coordinates(), model.dimension(), about);
         match &self.boundary {
-            Boundary::Ring(bodies) => RigidMotions {
-                interface: ring_motions(&bodies.0, model.frame(), about),
+            Boundary::Rings(bodies) => RigidMotions {
+                interface: ring_motions(&bodies.0, about),
                 housing: match bodies.1.rotation() {
                     Some(rotation) => transpose_times_dense(rotation, &motions),
                     None => motions,
@@ -199,8 +196,8 @@ impl CondensedHousing {
     /// Matrices of the whole, nothing condensed.
     pub fn full_matrices(&self) -> CoupledMatrices {
         let AssembledHousing { model, matrices, .. } = &self.housing;
-        match self.boundary.ring() {
-            Some((ring, tie)) => CoupledMatrices::new(matrices, tie, ring),
+        match self.boundary.rings() {
+            Some((rings, tie)) => CoupledMatrices::new(matrices, tie, rings),
             None => CoupledMatrices::of_housing(matrices.clone(), model),
         }
     }
@@ -255,7 +252,7 @@ fn check_interior(housing: &AssembledHousing, boundary: &Boundary) -> Result<(),
     if partition.driven.is_empty() || partition.interior.is_empty() {
         return Ok(()); // refused for this
     }
-    let rotation = boundary.ring().and_then(|(_, tie)| tie.rotation());
+    let rotation = boundary.rings().and_then(|(_, tie)| tie.rotation());
     match Mechanisms::find_in(&housing.mesh, &housing.model, &Bore::Held(&partition.driven, rotation))? {
         Some(found) if found.total() > 0 => Err(ComputeError::input(
             format!(

@@ -5,7 +5,7 @@
 use super::bearing::race_contacts;
 use super::housing::{description, read_mesh};
 use super::plausible::STATIC_RATING;
-use super::ring::{Seat, layer, metres};
+use super::ring::{BoreExtent, frame, layer, metres};
 use super::{deck, fit, plausible};
 use crate::app::case;
 use crate::app::case::Case;
@@ -64,11 +64,11 @@ pub(crate) fn doubts(
         found.extend(plausible::housing(case, model));
         found.extend(housing_doubts(mesh, model));
     }
-    if let Some(ring) = &case.ring {
-        found.extend(section_doubts(case, ring)?);
-        found.extend(ring_doubts(case, ring, housing)?);
+    for seat in case.seats() {
+        let of_seat =
+            [section_doubts(case, seat.ring)?, ring_doubts(case, &seat, housing)?, fit::bearing_doubts(case, &seat)?];
+        found.extend(of_seat.into_iter().flatten().map(|doubt| seat.told(doubt)));
     }
-    found.extend(fit::bearing_doubts(case)?);
     found.extend(plausible::shaft(case));
     if let (Some((setup, equilibrium)), Some(contacts)) = (at_rest, race_contacts(case)?) {
         found.extend(case.bearing.as_ref().and_then(case::Bearing::taken_from));
@@ -249,9 +249,10 @@ fn section_doubts(case: &Case, ring: &case::Ring) -> Result<Vec<String>, Compute
 /// How the ring sits in the housing.
 fn ring_doubts(
     case: &Case,
-    ring: &case::Ring,
+    seat: &case::Seat<'_>,
     housing: Option<(&Mesh, &HousingModel)>,
 ) -> Result<Vec<String>, ComputeError> {
+    let ring = seat.ring;
     let (Some((mesh, model)), Some(tie)) = (housing, &ring.tie) else {
         return Ok(Vec::new());
     };
@@ -267,30 +268,30 @@ fn ring_doubts(
             (face, height) = (layer.radius + 0.5 * radial, radial);
         }
     }
-    let seat = Seat::of(mesh, model, tie)?;
-    if seat.free_turn > FREE_TURN {
+    let extent = BoreExtent::of(mesh, model, &frame(seat)?, &tie.group)?;
+    if extent.free_turn > FREE_TURN {
         found.push(format!(
             "the bore \"{}\" leaves {:.0} degrees of the turn free, where nothing holds the ring: check that the group has all faces of the bore",
             tie.group,
-            seat.free_turn.to_degrees()
+            extent.free_turn.to_degrees()
         ));
     }
     found.extend(bore_in_pieces(mesh, model, &tie.group)?);
     if model.dimension() == 3 {
-        let outside = seat.share_outside(width);
+        let outside = extent.share_outside(width);
         if outside > OVERHANG {
             found.push(format!(
                 "{:.0} % of the ring's width lies outside the bore \"{}\": the ring is about {} wide by its sections and the bore reaches from {} to {} along the axis, from the ring's plane; the overhang is tied as a rigid arm; check ring.tie.centre, ring.tie.axis and ring.sections",
                 100.0 * outside,
                 tie.group,
                 metres(width),
-                metres(seat.from),
-                metres(seat.to)
+                metres(extent.from),
+                metres(extent.to)
             ));
         }
     }
     let Some(outer) = ring.outer_radius else {
-        found.extend(fit::filled(&tie.group, &seat, face, height));
+        found.extend(fit::filled(&tie.group, &extent, face, height));
         return Ok(found);
     };
     if (outer - face).abs() > ARM * height {

@@ -3,7 +3,7 @@
 //! From the axis outwards: balls between the races, the outer race in the innermost section of the ring, all sections in the bore.
 //! What cannot be is refused where the case is read, or with the bore (`super::ring`).
 
-use super::ring::{Seat, layer, metres};
+use super::ring::{BoreExtent, layer, metres};
 use crate::app::case::{self, Case};
 use crate::app::error::ComputeError;
 
@@ -24,8 +24,8 @@ const PLAY: f64 = 0.03;
 ///
 /// # Errors
 /// [`ComputeError`] of the ring's material.
-pub(super) fn bearing_doubts(case: &Case) -> Result<Vec<String>, ComputeError> {
-    let (Some(ring), Some(bearing)) = (&case.ring, &case.bearing) else {
+pub(super) fn bearing_doubts(case: &Case, seat: &case::Seat<'_>) -> Result<Vec<String>, ComputeError> {
+    let (ring, Some(bearing)) = (seat.ring, seat.bearing) else {
         return Ok(Vec::new());
     };
     let mut found = Vec::new();
@@ -86,7 +86,7 @@ const ARM: f64 = 0.5;
 
 /// Where `ring.outer_radius` does not say which radius the bore has: whether the sections, whose outer face is at `face` and
 /// which are `height` high there, fill the bore.
-pub(super) fn filled(bore: &str, seat: &Seat, face: f64, height: f64) -> Option<String> {
+pub(super) fn filled(bore: &str, seat: &BoreExtent, face: f64, height: f64) -> Option<String> {
     let [nearest, farthest] = seat.radii;
     let gap = (face - nearest).abs().max((farthest - face).abs());
     (gap > ARM * height).then(|| {

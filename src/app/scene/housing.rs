@@ -1,5 +1,6 @@
 //! Mesh to matrices of a housing, as the case asks for them, and which mesh files these are, by their content.
 
+use super::ring::frame;
 use crate::app::case::{self, Case, Hold, Housing, Interface, IsotropicMaterial, Rule};
 use crate::app::error::ComputeError;
 use crate::fe::assembly::SystemMatrices;
@@ -65,7 +66,7 @@ pub(crate) fn description(case: &Case, housing: &case::Housing) -> Result<Housin
         Interface::Group(group) => (vec![group.clone()], Vec::new()),
         Interface::Nodes(tags) => (Vec::new(), tags.clone()),
     };
-    attached.extend(case.ring.iter().filter_map(|ring| ring.tie.as_ref()).map(|tie| tie.group.clone()));
+    attached.extend(case.seats().iter().filter_map(|seat| seat.ring.tie.as_ref()).map(|tie| tie.group.clone()));
     Ok(HousingDescription {
         parts: parts.collect::<Result<_, ComputeError>>()?,
         plane: housing.plane,
@@ -74,20 +75,10 @@ pub(crate) fn description(case: &Case, housing: &case::Housing) -> Result<Housin
         masses: housing.masses.clone(),
         links: housing.links.clone(),
         overlap: housing.overlap,
-        frame: frame(case)?,
+        frame: case.seats().first().map_or_else(|| Ok(RingFrame::default()), frame)?,
         attached,
         attached_nodes,
     })
-}
-
-/// Where the ring sits; the mesh's own frame without one.
-fn frame(case: &Case) -> Result<RingFrame, ComputeError> {
-    match case.ring.as_ref().and_then(|ring| ring.tie.as_ref()) {
-        None => Ok(RingFrame::default()),
-        Some(tie) => RingFrame::new(tie.centre, tie.axis, tie.zero_deg).ok_or_else(|| {
-            ComputeError::wrong("ring.tie: `zero_deg` lies along `axis`: expected a direction across it")
-        }),
-    }
 }
 
 /// An isotropic material of the case, checked.

@@ -1,11 +1,11 @@
 //! A superelement from a file in the housing's place.
 
-use super::places::{Place, PlaceBodies, Spot, of_ring};
+use super::places::{Place, PlaceBodies, Spot, of_rings};
 use super::ring::{refuse_outside, ring};
 use crate::app::case;
 use crate::app::case::{Case, SensorSpot};
 use crate::app::error::ComputeError;
-use crate::fe::model::{Ring, RingFrame};
+use crate::fe::model::{RingFrame, Rings};
 use crate::fe::reduction::{Bound, Check, Superelement, check_matrices};
 use crate::formats::{
     DofBody, DofLabel, FormatError, SuperelementRecord, read_superelement_npz, read_superelement_op4,
@@ -42,8 +42,6 @@ pub struct ImportedHousing {
     pub record: SuperelementRecord,
     /// The same as the ring takes it.
     pub element: Superelement,
-    /// Where the bearing sits in the file's axes; these themselves where the file does not say.
-    pub frame: RingFrame,
     /// Checks of its matrices.
     pub checks: Vec<Check>,
     /// What a reader must know of it, in sentences.
@@ -51,44 +49,35 @@ pub struct ImportedHousing {
 }
 
 impl ImportedHousing {
-    /// Reads the file and makes the ring that fits it: in space if the interface has six motions a node.
+    /// Reads the file and makes the rings that fit it: in space if the interface has six motions a node.
     ///
     /// # Errors
-    /// [`ComputeError`] for a file that cannot be read and for an interface that is not the ring's, and
-    /// of the ring.
-    pub(crate) fn read(case: &Case, asked: &case::Ring, path: &Path) -> Result<(Self, Ring), ComputeError> {
-        let record = record(path, asked.nodes)?;
-        if let (Some(case), Some(file)) = (asked.outer_radius, record.outer_radius)
-            && (case - file).abs() > ROUND_OFF * file
-        {
-            return Err(refused(
-                path,
-                format!(
-                    "ring.outer_radius is {case} m, but the superelement was condensed with {file} m (array \"outer_radius\")"
-                ),
-                "the tie to the bore is within the superelement: give its value, leave the key out, or condense again",
-            ));
+    /// [`ComputeError`] for a file that cannot be read and for an interface that is not the rings', and
+    /// of the rings.
+    pub(crate) fn read(case: &Case, path: &Path) -> Result<(Self, Rings), ComputeError> {
+        let seats = case.seats();
+        let nodes = seats.iter().map(|seat| seat.ring.nodes).sum();
+        let record = record(path, nodes)?;
+        for seat in &seats {
+            fits(case, seat, path, &record, seats.len() == 1)?;
         }
-        if let Some(file) = record.outer_radius {
-            refuse_outside(case, asked, &format!("the bore in {}", path.display()), [file; 2])?;
-        }
-        let in_space = record.interface.len() == 6 * asked.nodes;
+        let in_space = record.interface.len() == 6 * nodes;
         if !in_space {
-            let mut supports = asked.supports.iter();
-            if let Some(index) = supports.position(|support| support.spring.z > 0.0) {
-                let what = format!(
-                    "ring.supports[{index}].spring has a component z, expected x and y only: the superelement is plane, three motions a node"
-                );
-                return Err(refused(path, what, None));
-            }
+            refuse_axial_springs(&seats, path)?;
         }
-        let ring = ring(case, asked, in_space)?;
-        let frame = frame(path, &record.interface)?;
-        check_labels(path, &record.interface, &ring, &frame)?;
+        let mut rest = record.interface.as_slice();
+        let seated = seats.iter().map(|seat| {
+            let ring = ring(case, seat.ring, in_space)?;
+            let (own, others) = rest.split_at(ring.dof());
+            rest = others;
+            Ok((seat.label.clone(), ring, frame(path, own)?))
+        });
+        let rings = Rings::new(seated.collect::<Result<_, ComputeError>>()?).ok_or(ComputeError::NothingToCondense)?;
+        check_labels(path, &record.interface, &rings)?;
         let element = Superelement {
             stiffness: record.stiffness.clone(),
             mass: record.mass.clone(),
-            weight: weight(&record, &frame),
+            weight: weight(&record, &rings.first().frame),
             structural: record.structural.clone(),
             interface_dof: record.interface.len(),
         };
@@ -98,9 +87,8 @@ impl ImportedHousing {
             checks: check_matrices(&element)?,
             record,
             element,
-            frame,
         };
-        Ok((imported, ring))
+        Ok((imported, rings))
     }
 
     /// Lets matrices pass that are those of a condensed housing.
@@ -180,11 +168,11 @@ impl ImportedHousing {
     /// The row of a place over the coordinates \[order\].
     ///
     /// # Errors
-    /// [`ComputeError`] for a row that the file lacks, and of places on the ring; each names the sensor or force.
-    pub(crate) fn row(&self, spot: Spot<'_>, ring: &Ring) -> Result<Vec<f64>, ComputeError> {
+    /// [`ComputeError`] for a row that the file lacks, and of places on a ring; each names the sensor or force.
+    pub(crate) fn row(&self, spot: Spot<'_>, rings: &Rings) -> Result<Vec<f64>, ComputeError> {
         let SensorSpot::Recovered(row) = spot.at else {
-            let place = Place::new(PlaceBodies::of_ring(ring, self.frame), spot)?;
-            return Ok(place.on_ring(self.element.order()));
+            let place = Place::new(PlaceBodies::of_rings(rings), spot)?;
+            return Ok(place.on_rings(self.element.order()));
         };
         let sensors = &self.record.sensors;
         if let Some(found) = sensors.iter().find(|sensor| sensor.name == *row) {
@@ -201,6 +189,46 @@ impl ImportedHousing {
             "give one of these names as `recovered`, `ring_deg` for a place on the ring, or condense again with the sensor in its case",
         ))
     }
+}
+
+/// The bore of a ring is the one that the file was condensed with, as far as the file of one ring tells it.
+fn fits(
+    case: &Case,
+    seat: &case::Seat<'_>,
+    path: &Path,
+    record: &SuperelementRecord,
+    only: bool,
+) -> Result<(), ComputeError> {
+    let Some(file) = record.outer_radius.filter(|_| only) else {
+        return Ok(());
+    };
+    if let Some(case) = seat.ring.outer_radius
+        && (case - file).abs() > ROUND_OFF * file
+    {
+        return Err(refused(
+            path,
+            format!(
+                "ring.outer_radius is {case} m, but the superelement was condensed with {file} m (array \"outer_radius\")"
+            ),
+            "the tie to the bore is within the superelement: give its value, leave the key out, or condense again",
+        ));
+    }
+    refuse_outside(case, seat, &format!("the bore in {}", path.display()), [file; 2])
+}
+
+/// A plane superelement has no motion along z.
+fn refuse_axial_springs(seats: &[case::Seat<'_>], path: &Path) -> Result<(), ComputeError> {
+    for seat in seats {
+        let mut supports = seat.ring.supports.iter();
+        if let Some(index) = supports.position(|support| support.spring.z > 0.0) {
+            let key = seat.key(&format!("ring.supports[{index}].spring"));
+            let what = format!(
+                "{key} has a component z, expected x and y only: the superelement is plane, three motions a node"
+            );
+            return Err(refused(path, what, None));
+        }
+    }
+    Ok(())
 }
 
 /// The error of a superelement that cannot take the housing's place, and what to do about it.
@@ -283,13 +311,13 @@ fn frame(path: &Path, interface: &[DofLabel]) -> Result<RingFrame, ComputeError>
     })
 }
 
-/// Whether labels are the ring's in the ring's order; what the file does not say passes.
-fn check_labels(path: &Path, interface: &[DofLabel], ring: &Ring, frame: &RingFrame) -> Result<(), ComputeError> {
+/// Whether labels are the rings' in the rings' order; what the file does not say passes.
+fn check_labels(path: &Path, interface: &[DofLabel], rings: &Rings) -> Result<(), ComputeError> {
     if !labelled(interface) {
         return Ok(());
     }
-    let reach = POSITION * ring.section().radius;
-    for (row, (own, label)) in of_ring(ring, frame).iter().zip(interface).enumerate() {
+    let reach = POSITION * rings.first().ring.section().radius;
+    for (row, (own, label)) in of_rings(rings).iter().zip(interface).enumerate() {
         if (own.body, own.node, own.direction) != (label.body, label.node, label.direction) {
             let what = format!("interface coordinate {row} (from 0): expected {}, found {}", name(own), name(label));
             return Err(refused(path, what, ORDER));
@@ -352,7 +380,7 @@ fn notes(case: &Case, path: &Path, record: &SuperelementRecord) -> Vec<String> {
     let idle = [
         (
             "ring.outer_radius",
-            record.outer_radius.is_none() && case.ring.as_ref().is_some_and(|ring| ring.outer_radius.is_some()),
+            record.outer_radius.is_none() && case.seats().iter().any(|seat| seat.ring.outer_radius.is_some()),
         ),
         ("condense.fixed_interface_modes", case.condense.fixed_interface_modes != case::FixedInterfaceModes::Auto),
         ("condense.enhanced", !case.condense.enhanced),

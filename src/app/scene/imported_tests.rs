@@ -258,8 +258,7 @@ fn matrices_are_checked_at_the_door() {
     );
     // `condense` lists what fails
     let case = imported(&path, 8, "", "");
-    let ring = case.ring.as_ref().unwrap();
-    let (found, _) = ImportedHousing::read(&case, ring, &path).unwrap();
+    let (found, _) = ImportedHousing::read(&case, &path).unwrap();
     let failed: Vec<&str> = (found.checks.iter().filter(|check| !check.ok())).map(|check| check.name).collect();
     assert!(failed.contains(&"k_bq = 0"), "{failed:?}");
     let mut record = whole.clone();
@@ -403,8 +402,7 @@ fn results_above_the_band_of_a_superelement_are_doubted() {
         let record = SuperelementRecord { band_hz: None, modal_hz: modal_hz.to_vec(), ..record.clone() };
         let asked = imported(&path, nodes, REST, "");
         write_superelement_npz(&path, &record_of(&original(PLANE, 8, ""))).unwrap();
-        let ring = asked.ring.as_ref().unwrap();
-        let (mut housing, _) = ImportedHousing::read(&asked, ring, &path).unwrap();
+        let (mut housing, _) = ImportedHousing::read(&asked, &path).unwrap();
         housing.record = record;
         housing.doubt(237e3)
     };

@@ -39,10 +39,10 @@ const LEAST_DOF: usize = if cfg!(test) { 500 } else { 3000 };
 /// lesser evil.
 const LONGEST_WAIT: Duration = Duration::from_secs(if cfg!(test) { 1 } else { 120 });
 
-/// What a ring's structure takes of the housing.
+/// What a structure of rings takes of the housing.
 #[derive(Debug, Clone, PartialEq)]
-pub(super) struct OnRing {
-    /// The condensed housing, whose interface is the ring, without structural damping; `None` of a ring alone.
+pub(super) struct OnRings {
+    /// The condensed housing, whose interface is the rings, without structural damping; `None` of a ring alone.
     pub(super) element: Option<Superelement>,
     /// Rows of the case's sensors over the coordinates of ring and element \[order\].
     pub(super) sensors: Vec<Vec<f64>>,
@@ -98,7 +98,7 @@ impl Kept {
     }
 
     /// The housing, if it is there and whole.
-    pub(super) fn read(&self, watch: &impl Watch) -> Option<OnRing> {
+    pub(super) fn read(&self, watch: &impl Watch) -> Option<OnRings> {
         let bytes = match no_link(&self.path).and_then(|()| files::read(&self.path)) {
             Ok(bytes) => bytes,
             Err(error) if error.kind() == io::ErrorKind::NotFound => return None,
@@ -123,7 +123,7 @@ impl Kept {
     }
 
     /// Keeps a housing that took so long to condense.
-    pub(super) fn write(&self, housing: &OnRing, took: Duration, watch: &impl Watch) {
+    pub(super) fn write(&self, housing: &OnRings, took: Duration, watch: &impl Watch) {
         let Some(element) = &housing.element else {
             return;
         };
@@ -211,7 +211,7 @@ fn bytes_of(values: &[f64]) -> Vec<u8> {
     values.iter().flat_map(|value| value.to_le_bytes()).collect()
 }
 
-fn written(housing: &OnRing, element: &Superelement, key: &str, took: Duration) -> Vec<u8> {
+fn written(housing: &OnRings, element: &Superelement, key: &str, took: Duration) -> Vec<u8> {
     let now = SystemTime::now().duration_since(UNIX_EPOCH).unwrap_or_default();
     let head = Head {
         key: key.to_owned(),
@@ -235,7 +235,7 @@ fn written(housing: &OnRing, element: &Superelement, key: &str, took: Duration) 
 }
 
 /// What a file holds; `None` if it is damaged, or another one's.
-fn parsed(bytes: &[u8], key: &str) -> Option<(Head, OnRing)> {
+fn parsed(bytes: &[u8], key: &str) -> Option<(Head, OnRings)> {
     let (content, digest) = bytes.split_at_checked(bytes.len().checked_sub(DIGEST)?)?;
     let rest = content.strip_prefix(MAGIC)?;
     if Sha256::digest(content)[..] != *digest {
@@ -265,7 +265,7 @@ fn parsed(bytes: &[u8], key: &str) -> Option<(Head, OnRing)> {
     let [stiffness, mass, weight] = [order, order, 2].map(&mut matrix);
     let sensors = (0..head.sensors).map(|_| take(order).to_vec()).collect();
     let element = Superelement { stiffness, mass, weight, structural: None, interface_dof: head.interface_dof };
-    Some((head, OnRing { element: Some(element), sensors, complete_hz: take(1)[0] }))
+    Some((head, OnRings { element: Some(element), sensors, complete_hz: take(1)[0] }))
 }
 
 /// Removes the files used longest ago until the others have so many bytes at most; the one just written stays.

@@ -34,7 +34,7 @@ pub(crate) use doubts::{doubts, doubts_of_case};
 pub use housing::AssembledHousing;
 pub(crate) use housing::{description, mesh_digests, read_mesh};
 pub use imported::ImportedHousing;
-pub use in_full::RingInHousing;
+pub use in_full::RingsInHousing;
 pub(crate) use plausible::size_doubt;
 pub use ring::Boundary;
 pub use structure::{CoupledStructure, FreeSystem};

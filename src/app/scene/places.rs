@@ -8,7 +8,7 @@ use crate::app::case::{Push, Sensor, SensorSpot};
 use crate::app::error::ComputeError;
 use crate::fe::assembly::CoupledMatrices;
 use crate::fe::mesh::BoundingBox;
-use crate::fe::model::{HousingModel, Ring, RingFrame, RingTie};
+use crate::fe::model::{HousingModel, RingSeat, RingTie, Rings};
 use crate::fe::reduction::CraigBampton;
 use crate::formats::{DofBody, DofDirection, DofLabel};
 use crate::numerics::Brief;
@@ -31,18 +31,20 @@ pub(crate) struct Spot<'a> {
     kind: &'static str,
     pub name: &'a str,
     pub at: &'a SensorSpot,
+    /// Label of the bearing whose ring it is on, where there are several.
+    bearing: Option<&'a str>,
     direction: [f64; 3],
 }
 
 impl<'a> From<&'a Sensor> for Spot<'a> {
-    fn from(Sensor { name, spot, direction, .. }: &'a Sensor) -> Self {
-        Self { kind: "sensor", name, at: spot, direction: *direction }
+    fn from(Sensor { name, spot, bearing, direction }: &'a Sensor) -> Self {
+        Self { kind: "sensor", name, at: spot, bearing: bearing.as_deref(), direction: *direction }
     }
 }
 
 impl<'a> From<&'a Push> for Spot<'a> {
-    fn from(Push { name, spot, direction }: &'a Push) -> Self {
-        Self { kind: "force", name, at: spot, direction: *direction }
+    fn from(Push { name, spot, bearing, direction }: &'a Push) -> Self {
+        Self { kind: "force", name, at: spot, bearing: bearing.as_deref(), direction: *direction }
     }
 }
 
@@ -58,7 +60,7 @@ impl fmt::Display for Spot<'_> {
 pub(crate) enum Place {
     /// Over the housing, in the displacements that the partition uses.
     Housing(Vec<(usize, f64)>),
-    /// Over the ring.
+    /// Over the rings.
     Ring(Vec<(usize, f64)>),
 }
 
@@ -66,16 +68,14 @@ pub(crate) enum Place {
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct PlaceBodies<'a> {
     pub housing: Option<&'a AssembledHousing>,
-    pub ring: Option<&'a Ring>,
+    pub rings: Option<&'a Rings>,
     pub tie: Option<&'a RingTie>,
-    /// Where the bearing sits in the axes that directions are given in.
-    pub frame: RingFrame,
 }
 
 impl<'a> PlaceBodies<'a> {
-    /// A ring in a frame, and nothing else.
-    pub(crate) fn of_ring(ring: &'a Ring, frame: RingFrame) -> Self {
-        Self { housing: None, ring: Some(ring), tie: None, frame }
+    /// Rings, and nothing else.
+    pub(crate) fn of_rings(rings: &'a Rings) -> Self {
+        Self { housing: None, rings: Some(rings), tie: None }
     }
 }
 
@@ -93,16 +93,18 @@ impl Place {
         };
         let (nodes, housing) = match (spot.at, bodies.housing) {
             (SensorSpot::RingDeg(degrees), _) => {
-                let ring = bodies.ring.ok_or_else(|| {
+                let rings = bodies.rings.ok_or_else(|| {
                     ComputeError::wrong(format!(
                         "{spot} stands on the ring, but no ring is attached here: give group, node or point"
                     ))
                 })?;
-                let direction = unit(bodies.frame.vector(spot.direction));
-                if !ring.is_in_space() {
+                let seat = ring_of(rings, spot)?;
+                let direction = unit(seat.frame.vector(spot.direction));
+                if !rings.are_in_space() {
                     in_plane(spot, direction)?;
                 }
-                return Ok(Self::Ring(ring.displacement_row(degrees.to_radians(), direction)));
+                let row = seat.ring.displacement_row(degrees.to_radians(), direction).into_iter();
+                return Ok(Self::Ring(row.map(|(dof, factor)| (seat.range().start + dof, factor)).collect()));
             }
             (SensorSpot::Recovered(row), _) => return Err(needs_housing(format!("row \"{row}\" of a superelement"))),
             (_, Some(housing)) => (nodes_at(housing, spot)?, housing),
@@ -127,11 +129,11 @@ impl Place {
         Ok(Self::Housing(entries))
     }
 
-    /// The row over the coordinates of a condensed housing \[order\], of which the interface is the ring if there is
-    /// one.
+    /// The row over the coordinates of a condensed housing \[order\], of which the interface are the rings if there are
+    /// any.
     pub(crate) fn reduced(&self, condensed: &CraigBampton) -> Vec<f64> {
         match self {
-            Self::Ring(_) => self.on_ring(condensed.superelement.order()),
+            Self::Ring(_) => self.on_rings(condensed.superelement.order()),
             Self::Housing(entries) => {
                 let parts = entries.iter().flat_map(|&(dof, factor)| {
                     // a fixed degree of freedom does not move: no row
@@ -151,14 +153,14 @@ impl Place {
         }
     }
 
-    /// The row over the coordinates of housing and ring in full: what the tie drives moves with the ring.
+    /// The row over the coordinates of housing and rings in full: what the tie drives moves with its ring.
     pub(crate) fn full(&self, boundary: &Boundary, matrices: &CoupledMatrices) -> Vec<f64> {
-        let ring = boundary.ring();
+        let rings = boundary.rings();
         let length = matrices.mass.rows();
-        let first = length - ring.map_or(0, |(ring, _)| ring.dof());
+        let first = length - rings.map_or(0, |(rings, _)| rings.dof());
         let partition = boundary.partition();
         let of_housing = |&(dof, factor): &(usize, f64)| {
-            let driven = ring.and_then(|_| partition.driven.iter().position(|&at| at == dof));
+            let driven = rings.and_then(|_| partition.driven.iter().position(|&at| at == dof));
             let Some(place) = driven else {
                 return vec![(dof, factor)];
             };
@@ -173,12 +175,32 @@ impl Place {
         }
     }
 
-    /// The row over so many coordinates of which the ring's come first; zero for a place on the housing.
-    pub(crate) fn on_ring(&self, order: usize) -> Vec<f64> {
+    /// The row over so many coordinates of which the rings' come first; zero for a place on the housing.
+    pub(crate) fn on_rings(&self, order: usize) -> Vec<f64> {
         match self {
             Self::Ring(entries) => row(order, entries.iter().copied()),
             Self::Housing(_) => vec![0.0; order],
         }
+    }
+}
+
+/// The ring that a place is on.
+///
+/// # Errors
+/// [`ComputeError`] for a label that no bearing has, and for none where there are several.
+fn ring_of<'r>(rings: &'r Rings, spot: Spot<'_>) -> Result<&'r RingSeat, ComputeError> {
+    let seats = rings.seats();
+    let labels = || seats.iter().map(|seat| format!("\"{}\"", seat.label)).collect::<Vec<_>>().join(", ");
+    match (spot.bearing, seats) {
+        (None, [only]) => Ok(only),
+        (None, _) => Err(ComputeError::wrong(format!(
+            "{spot} stands on a ring, and the case has several: add bearing = LABEL, one of {}",
+            labels()
+        ))),
+        (Some(label), _) => seats.iter().find(|seat| seat.label == label).ok_or_else(|| {
+            let expected = if seats.len() > 1 { format!("one of {}", labels()) } else { "no key `bearing`".to_owned() };
+            ComputeError::wrong(format!("{spot}: found bearing = \"{label}\", expected {expected}"))
+        }),
     }
 }
 
@@ -279,7 +301,7 @@ fn nearest_node(housing: &AssembledHousing, spot: Spot<'_>, point: &[f64; 3]) ->
 /// Labels of a housing's degrees of freedom; those of a sliding tie's bore are in polar axes.
 pub(crate) fn of_housing(model: &HousingModel, tie: Option<&RingTie>) -> Vec<DofLabel> {
     let d = model.dimension();
-    // a sliding tie turns all components of the bore's nodes
+    // a sliding tie turns all components of its bore's nodes
     let sliding = tie.filter(|tie| tie.rotation().is_some());
     let bore: BTreeSet<usize> = sliding.iter().flat_map(|tie| &tie.partition().driven).map(|dof| dof / d).collect();
     let nodes = model.coordinates().iter().zip(&model.node_tags).enumerate();
@@ -303,8 +325,19 @@ pub(crate) fn of_housing(model: &HousingModel, tie: Option<&RingTie>) -> Vec<Dof
     labels.collect()
 }
 
+/// Labels of the displacements of all rings, whose nodes are counted on from ring to ring.
+pub(crate) fn of_rings(rings: &Rings) -> Vec<DofLabel> {
+    let mut first_node = 0;
+    let of_seat = |seat: &RingSeat| {
+        let labels = of_ring(first_node, seat);
+        first_node += seat.ring.nodes();
+        labels
+    };
+    rings.seats().iter().flat_map(of_seat).collect()
+}
+
 /// In the order of a ring's displacements: those in its plane, then those out of it.
-pub(crate) fn of_ring(ring: &Ring, frame: &RingFrame) -> Vec<DofLabel> {
+fn of_ring(first_node: usize, RingSeat { ring, frame, .. }: &RingSeat) -> Vec<DofLabel> {
     use DofDirection::{About, Along};
     let in_plane = [(Along(0), 0), (Along(1), 1), (About(2), 2)];
     let out_of_plane = [(Along(2), 2), (About(0), 0), (About(1), 1)];
@@ -317,7 +350,7 @@ pub(crate) fn of_ring(ring: &Ring, frame: &RingFrame) -> Vec<DofLabel> {
                 unit[axis] = 1.0;
                 labels.push(DofLabel {
                     body: DofBody::Ring,
-                    node: node as u64,
+                    node: (first_node + node) as u64,
                     direction,
                     position: frame.point_to_mesh(ring.node_position(node)),
                     axis: frame.vector_to_mesh(unit),

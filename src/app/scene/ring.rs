@@ -7,31 +7,57 @@ use crate::bearing::catalogue::CatalogueBearing;
 use crate::fe::assembly::SystemMatrices;
 use crate::fe::material::{BeamSection, Bond, RingLayer};
 use crate::fe::mesh::Mesh;
-use crate::fe::model::{HousingModel, HousingPartition, NodeInterface, Ring, RingSupport, RingTie};
+use crate::fe::model::{
+    Bore, HousingModel, HousingPartition, NodeInterface, Ring, RingFrame, RingSupport, RingTie, Rings,
+};
 use crate::fe::reduction::Attached;
 use std::borrow::Cow;
 use std::f64::consts::TAU;
 
-/// The ring of a case, and how it sits in its housing if it does.
+/// The rings of a case, and how they sit in its housing if they do.
 ///
 /// # Errors
-/// [`ComputeError`] of the ring and of the tie.
-pub(crate) fn ring_and_tie(
-    case: &Case,
-    asked: &case::Ring,
+/// [`ComputeError`] of the rings and of the tie, and for a case without a ring.
+pub(crate) fn rings_and_tie<'c>(
+    case: &'c Case,
     housing: Option<&AssembledHousing>,
-) -> Result<(Ring, Option<RingTie>), ComputeError> {
+) -> Result<(Rings, Option<RingTie>), ComputeError> {
     let in_space = housing.is_some_and(|housing| housing.model.dimension() == 3);
-    let ring = ring(case, asked, in_space)?;
-    let (Some(housing), Some(tie)) = (housing, &asked.tie) else {
-        return Ok((ring, None));
+    let seats = case.seats();
+    let seated = seats.iter().map(|seat| Ok((seat.label.clone(), ring(case, seat.ring, in_space)?, frame(seat)?)));
+    let rings = Rings::new(seated.collect::<Result<_, ComputeError>>()?).ok_or(ComputeError::NothingToCondense)?;
+    let Some(AssembledHousing { mesh, model, .. }) = housing else {
+        return Ok((rings, None));
     };
-    let outer = asked.outer_radius;
-    let AssembledHousing { mesh, model, .. } = housing;
-    let seat = Seat::of(mesh, model, tie)?;
-    let tied = RingTie::new(mesh, model, &tie.group, &ring, outer, tie.fit)?;
-    refuse_outside(case, asked, &format!("the bore \"{}\"", tie.group), seat.radii)?;
-    Ok((ring, Some(tied)))
+    let tied = |ring: &'c case::Ring| {
+        let tie = ring.tie.as_ref()?;
+        Some(Bore { group: &tie.group, outer_radius: ring.outer_radius, fit: tie.fit })
+    };
+    let Some(bores) = seats.iter().map(|seat| tied(seat.ring)).collect::<Option<Vec<_>>>() else {
+        return Ok((rings, None));
+    };
+    let extents =
+        rings.seats().iter().zip(&bores).map(|(own, bore)| BoreExtent::of(mesh, model, &own.frame, bore.group));
+    let extents = extents.collect::<Result<Vec<_>, ComputeError>>()?;
+    let tie = RingTie::of_bores(mesh, model, &rings, &bores)?;
+    for ((seat, bore), extent) in seats.iter().zip(&bores).zip(extents) {
+        refuse_outside(case, seat, &format!("the bore \"{}\"", bore.group), extent.radii)?;
+    }
+    Ok((rings, Some(tie)))
+}
+
+/// Where a ring sits; the mesh's own frame without a tie.
+///
+/// # Errors
+/// [`ComputeError::Input`] for an angle 0 along the axis.
+pub(super) fn frame(seat: &case::Seat<'_>) -> Result<RingFrame, ComputeError> {
+    match &seat.ring.tie {
+        None => Ok(RingFrame::default()),
+        Some(tie) => RingFrame::new(tie.centre, tie.axis, tie.zero_deg).ok_or_else(|| {
+            let key = seat.key("ring.tie");
+            ComputeError::wrong(format!("{key}: `zero_deg` lies along `axis`: expected a direction across it"))
+        }),
+    }
 }
 
 /// A section of a ring as it is asked for.
@@ -50,7 +76,7 @@ pub(crate) fn layer(case: &Case, section: &case::Section) -> Result<RingLayer, C
     })
 }
 
-/// The ring of a case with its supports; in space for a solid housing.
+/// A ring of a case with its supports; in space for a solid housing.
 pub(crate) fn ring(case: &Case, asked: &case::Ring, in_space: bool) -> Result<Ring, ComputeError> {
     let layers = asked.sections.iter().map(|section| layer(case, section));
     let layers = layers.collect::<Result<Vec<_>, ComputeError>>()?;
@@ -90,20 +116,27 @@ pub(super) fn metres(length: f64) -> String {
 ///
 /// # Errors
 /// [`ComputeError`] with both radii or diameters and their keys.
-pub(crate) fn refuse_outside(case: &Case, ring: &case::Ring, bore: &str, radii: [f64; 2]) -> Result<(), ComputeError> {
-    let name = case.bearing.as_ref().and_then(|bearing| bearing.name.as_deref());
+pub(crate) fn refuse_outside(
+    case: &Case,
+    seat: &case::Seat<'_>,
+    bore: &str,
+    radii: [f64; 2],
+) -> Result<(), ComputeError> {
+    let ring = seat.ring;
+    let name = seat.bearing.and_then(|bearing| bearing.name.as_deref());
     if let Some(bearing) = name.and_then(CatalogueBearing::named) {
         // rings between bearing and bore are sections of their own
         let nearest = if ring.sections.len() > 1 { 0.0 } else { radii[0] };
         if let Some(rule) = other_size(bearing, bore, [nearest, radii[1]], "housing.length_unit") {
-            return Err(case.broken(&rule.at("bearing.name")).into());
+            return Err(case.broken(&rule.at(seat.key("bearing.name"))).into());
         }
     }
     let farthest = radii[1];
     let sections = ring.sections.iter().enumerate();
-    let sections = sections.map(|(index, section)| (format!("ring.sections[{index}].radius"), section.radius));
-    let race = case.bearing.iter().map(|bearing| ("bearing.outer_race_radius".to_owned(), bearing.outer_race_radius));
-    let mut outside = race.chain(sections).filter(|(_, radius)| *radius >= farthest);
+    let sections =
+        sections.map(|(index, section)| (seat.key(&format!("ring.sections[{index}].radius")), section.radius));
+    let race = seat.bearing.map(|bearing| (seat.key("bearing.outer_race_radius"), bearing.outer_race_radius));
+    let mut outside = race.into_iter().chain(sections).filter(|(_, radius)| *radius >= farthest);
     let Some((key, radius)) = outside.next() else {
         return Ok(());
     };
@@ -120,8 +153,8 @@ pub(crate) fn refuse_outside(case: &Case, ring: &case::Ring, bore: &str, radii: 
 /// What a housing is attached by.
 #[derive(Debug, Clone)]
 pub enum Boundary {
-    /// A ring through its tie.
-    Ring(Box<(Ring, RingTie)>),
+    /// Rings through their tie.
+    Rings(Box<(Rings, RingTie)>),
     /// Nodes of the mesh themselves.
     Nodes(NodeInterface),
 }
@@ -130,13 +163,13 @@ impl Boundary {
     /// How the housing's degrees of freedom are split.
     pub(crate) fn partition(&self) -> &HousingPartition {
         match self {
-            Self::Ring(bodies) => bodies.1.partition(),
+            Self::Rings(bodies) => bodies.1.partition(),
             Self::Nodes(nodes) => &nodes.partition,
         }
     }
 
     pub(crate) fn matrices<'h>(&self, housing: &'h AssembledHousing) -> Cow<'h, SystemMatrices> {
-        match self.ring() {
+        match self.rings() {
             Some((_, tie)) if tie.rotation().is_some() => Cow::Owned(housing.matrices.clone().for_tie(tie)),
             _ => Cow::Borrowed(&housing.matrices),
         }
@@ -144,21 +177,21 @@ impl Boundary {
 
     /// What sits on the interface.
     pub fn attached(&self) -> Option<Attached<'_>> {
-        self.ring().map(|(ring, _)| Attached { stiffness: ring.stiffness(), mass: ring.mass() })
+        self.rings().map(|(rings, _)| Attached { stiffness: rings.stiffness(), mass: rings.mass() })
     }
 
-    /// Ring and tie, if that is what it is.
-    pub(crate) fn ring(&self) -> Option<(&Ring, &RingTie)> {
+    /// Rings and tie, if that is what it is.
+    pub(crate) fn rings(&self) -> Option<(&Rings, &RingTie)> {
         match self {
-            Self::Ring(bodies) => Some((&bodies.0, &bodies.1)),
+            Self::Rings(bodies) => Some((&bodies.0, &bodies.1)),
             Self::Nodes(_) => None,
         }
     }
 }
 
-/// The bore in the ring's frame.
+/// A bore in its ring's frame.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct Seat {
+pub(crate) struct BoreExtent {
     /// Number of its nodes.
     pub nodes: usize,
     /// Least and largest distance of a node from the axis, m.
@@ -171,15 +204,15 @@ pub(crate) struct Seat {
     pub free_turn: f64,
 }
 
-impl Seat {
-    /// The bore of a tie.
+impl BoreExtent {
+    /// The bore with this group in the frame of its ring.
     ///
     /// # Errors
     /// [`ComputeError::Model`] if the mesh lacks it.
-    pub(crate) fn of(mesh: &Mesh, model: &HousingModel, tie: &case::Tie) -> Result<Self, ComputeError> {
-        let group = model.group_on_housing(mesh, &tie.group, "the tie")?;
+    pub(crate) fn of(mesh: &Mesh, model: &HousingModel, frame: &RingFrame, group: &str) -> Result<Self, ComputeError> {
+        let group = model.group_on_housing(mesh, group, "the tie")?;
         let nodes = group.nodes.iter().filter(|&&node| model.used[node]);
-        let places: Vec<[f64; 3]> = nodes.map(|&node| model.ring_coordinates(node)).collect();
+        let places: Vec<[f64; 3]> = nodes.map(|&node| frame.point(model.coordinates()[node])).collect();
         let along: Vec<f64> = places.iter().map(|place| place[2]).collect();
         let mut angles: Vec<f64> = places.iter().map(|[x, y, _]| y.atan2(*x)).collect();
         angles.sort_unstable_by(f64::total_cmp);

@@ -1,20 +1,20 @@
-//! Ring and condensed housing of a case in one structure, with its sensors and its modes.
+//! Rings and condensed housing of a case in one structure, with its sensors and its modes.
 //!
-//! Housing and ring of a case in full (nothing condensed): the bodies, and stiffness and mass over their free degrees of freedom.
+//! Housing and rings of a case in full (nothing condensed): the bodies, and stiffness and mass over their free degrees of freedom.
 
 use super::condensed::{CondensedHousing, basis_choice};
 use super::housing::AssembledHousing;
-use super::in_full::RingInHousing;
-use super::kept::{Kept, OnRing};
-use super::places::{Place, of_housing, of_ring};
-use super::ring::{Boundary, ring_and_tie};
+use super::in_full::RingsInHousing;
+use super::kept::{Kept, OnRings};
+use super::places::{Place, of_housing, of_rings};
+use super::ring::{Boundary, rings_and_tie};
 use crate::app::case;
 use crate::app::case::{Case, Interface, ModesKept};
 use crate::app::error::ComputeError;
 use crate::fe::assembly::CoupledMatrices;
 use crate::fe::mesh::Mesh;
 use crate::fe::modal::{FullModes, ModeSet, RingShapes, mode_set};
-use crate::fe::model::{HousingModel, Ring, RingFrame, RingTie};
+use crate::fe::model::{HousingModel, RingTie, Rings};
 use crate::fe::reduction::{BasisChoice, BasisSize, CraigBampton, Superelement};
 use crate::formats::DofLabel;
 use crate::numerics::Watch;
@@ -61,49 +61,43 @@ pub(crate) fn wanted_hz(case: &Case) -> Option<f64> {
 /// The linear model of a case.
 #[derive(Debug, Clone)]
 pub struct CoupledStructure {
-    /// Ring and housing, in full.
-    pub bodies: RingInHousing,
+    /// Rings and housing, in full.
+    pub bodies: RingsInHousing,
     /// Number of vectors of the condensed housing's interior.
     pub fixed_interface_modes: usize,
     /// Frequency of the lowest vector of the housing's interior that was left out, Hz; of a superelement by
     /// `ImportedHousing::complete_hz`, zero where its file does not tell; infinite without a housing.
     pub complete_hz: f64,
-    /// Ring and housing with the case's sensors.
+    /// Rings and housing with the case's sensors.
     pub structure: Structure,
     /// All its modes, or the lowest ones of a ring of many nodes.
     pub modes: StructureModes,
 }
 
 impl CoupledStructure {
-    /// Builds ring and housing of a case, with as many modes as it needs; `None` without a ring.
+    /// Builds rings and housing of a case, with as many modes as it needs; `None` without a ring.
     ///
     /// # Errors
     /// [`ComputeError`] of the stages that it goes through.
     pub fn build(case: &Case, watch: &impl Watch) -> Result<Option<Self>, ComputeError> {
-        let ring = case.ring.as_ref();
-        ring.map(|asked| Self::around_ring(case, asked, needed_modes(case), watch)).transpose()
+        case.has_rings().then(|| Self::around_rings(case, needed_modes(case), watch)).transpose()
     }
 
-    /// The same around the ring that is asked for, with at least so many modes, if it has them.
+    /// The same of a case with rings, with at least so many modes, if it has them.
     ///
     /// # Errors
-    /// As [`build`](Self::build).
-    pub(crate) fn around_ring(
-        case: &Case,
-        asked: &case::Ring,
-        count: usize,
-        watch: &impl Watch,
-    ) -> Result<Self, ComputeError> {
+    /// As [`build`](Self::build), and for a case without a ring.
+    pub(crate) fn around_rings(case: &Case, count: usize, watch: &impl Watch) -> Result<Self, ComputeError> {
         if case.condense.interface != Interface::Ring {
             return Err(ComputeError::InterfaceOfRing);
         }
-        let bodies = RingInHousing::build(case, asked, watch)?;
-        let (bodies, housing) = OnRing::of(case, bodies, watch)?;
+        let bodies = RingsInHousing::build(case, watch)?;
+        let (bodies, housing) = OnRings::of(case, bodies, watch)?;
         let gravity = case.shaft.as_ref().map_or([0.0, -9.81], |shaft| shaft.gravity);
-        let ring = bodies.ring.clone();
+        let rings = bodies.rings.clone();
         let mut structure = match &housing.element {
-            Some(element) => Structure::with_housing(ring, element, gravity)?,
-            None => Structure::ring_alone(ring, gravity),
+            Some(element) => Structure::with_housing(rings, element, gravity)?,
+            None => Structure::ring_alone(rings, gravity),
         };
         for (sensor, row) in case.sensors.iter().zip(housing.sensors) {
             structure.add_sensor(Sensor { name: sensor.name.clone(), row })?;
@@ -119,7 +113,7 @@ impl CoupledStructure {
     }
 }
 
-impl OnRing {
+impl OnRings {
     fn of_mesh(condensed: CraigBampton, places: &[Place]) -> Self {
         Self {
             sensors: places.iter().map(|place| place.reduced(&condensed)).collect(),
@@ -132,14 +126,14 @@ impl OnRing {
     ///
     /// # Errors
     /// [`ComputeError`] of sensors and reduction.
-    fn of(case: &Case, bodies: RingInHousing, watch: &impl Watch) -> Result<(RingInHousing, Self), ComputeError> {
+    fn of(case: &Case, bodies: RingsInHousing, watch: &impl Watch) -> Result<(RingsInHousing, Self), ComputeError> {
         let alone = |dof: usize, places: Vec<Place>| Self {
             element: None,
-            sensors: places.iter().map(|place| place.on_ring(dof)).collect(),
+            sensors: places.iter().map(|place| place.on_rings(dof)).collect(),
             complete_hz: f64::INFINITY,
         };
         if let Some(imported) = &bodies.imported {
-            let row = |sensor: &case::Sensor| imported.row(sensor.into(), &bodies.ring);
+            let row = |sensor: &case::Sensor| imported.row(sensor.into(), &bodies.rings);
             let of_file = Self {
                 sensors: case.sensors.iter().map(row).collect::<Result<_, _>>()?,
                 complete_hz: imported.complete_hz(),
@@ -148,14 +142,14 @@ impl OnRing {
             return Ok((bodies, of_file));
         }
         let places = bodies.sensors(case)?;
-        let (housing, ring, tie) = match bodies {
-            RingInHousing { housing: Some(housing), tie: Some(tie), ring, .. } => (housing, ring, tie),
+        let (housing, rings, tie) = match bodies {
+            RingsInHousing { housing: Some(housing), tie: Some(tie), rings, .. } => (housing, rings, tie),
             bodies => {
-                let of_ring = alone(bodies.ring.dof(), places);
-                return Ok((bodies, of_ring));
+                let of_rings = alone(bodies.rings.dof(), places);
+                return Ok((bodies, of_rings));
             }
         };
-        let boundary = Boundary::Ring(Box::new((ring, tie)));
+        let boundary = Boundary::Rings(Box::new((rings, tie)));
         let choice = run_basis(case);
         let kept = Kept::of(&boundary.matrices(&housing), &boundary, choice, &places, watch);
         let (housing, boundary, of_mesh) = match kept.as_ref().and_then(|kept| kept.read(watch)) {
@@ -169,9 +163,9 @@ impl OnRing {
             }
         };
         match boundary {
-            Boundary::Ring(on_ring) => {
-                let (ring, tie) = *on_ring;
-                let bodies = RingInHousing { housing: Some(housing), tie: Some(tie), ..RingInHousing::alone(ring) };
+            Boundary::Rings(tied) => {
+                let (rings, tie) = *tied;
+                let bodies = RingsInHousing { housing: Some(housing), tie: Some(tie), ..RingsInHousing::alone(rings) };
                 Ok((bodies, of_mesh))
             }
             Boundary::Nodes(_) => Err(ComputeError::InterfaceOfRing),
@@ -207,10 +201,10 @@ pub(crate) fn needed_modes(case: &Case) -> usize {
     }
 }
 
-/// Housing and ring of a case, of which one may be missing.
+/// Housing and rings of a case, of which one may be missing.
 pub(crate) struct Bodies {
     pub housing: Option<(Mesh, HousingModel)>,
-    pub ring: Option<Ring>,
+    pub rings: Option<Rings>,
     pub tie: Option<RingTie>,
 }
 
@@ -220,41 +214,35 @@ impl Bodies {
     /// # Errors
     /// [`ComputeError`] of mesh, model, elements, ring and tie.
     pub(crate) fn assemble(case: &Case, watch: &impl Watch) -> Result<(Self, CoupledMatrices), ComputeError> {
-        let Some(asked) = &case.ring else {
+        if !case.has_rings() {
             let housing = AssembledHousing::of(case, watch)?;
             let matrices = CoupledMatrices::of_housing(housing.matrices, &housing.model);
-            let bodies = Self { housing: Some((housing.mesh, housing.model)), ring: None, tie: None };
+            let bodies = Self { housing: Some((housing.mesh, housing.model)), rings: None, tie: None };
             return Ok((bodies, matrices));
-        };
+        }
         let housing = AssembledHousing::build(case, watch)?;
-        let (ring, tie) = ring_and_tie(case, asked, housing.as_ref())?;
+        let (rings, tie) = rings_and_tie(case, housing.as_ref())?;
         watch.stage("couple");
         let matrices = match (&housing, &tie) {
-            (Some(housing), Some(tie)) => CoupledMatrices::new(&housing.matrices, tie, &ring),
-            _ => CoupledMatrices::of_ring(&ring),
+            (Some(housing), Some(tie)) => CoupledMatrices::new(&housing.matrices, tie, &rings),
+            _ => CoupledMatrices::of_rings(&rings),
         };
-        let bodies = Self { housing: housing.map(|housing| (housing.mesh, housing.model)), ring: Some(ring), tie };
+        let bodies = Self { housing: housing.map(|housing| (housing.mesh, housing.model)), rings: Some(rings), tie };
         Ok((bodies, matrices))
     }
 
-    /// Modes at the nodes of the mesh and of the ring.
+    /// Modes at the nodes of the mesh and of the rings.
     pub(crate) fn mode_set(&self, modes: &FullModes) -> ModeSet {
         let all = modes.over_all_rows();
         let housing = self.housing.as_ref();
         let moved = housing.map(|(_, model)| modes.motions.housing(model, &all));
-        let of_ring = self.ring.as_ref().map(|ring| RingShapes::new(ring, &self.frame(), &modes.motions.ring(&all)));
+        let of_rings = self.rings.as_ref().map(|rings| RingShapes::of_all(rings, &modes.motions.rings(&all)));
         let housing = housing.zip(moved.as_ref()).map(|((mesh, model), moved)| (mesh, model, moved));
-        mode_set(&modes.basis.frequencies_hz, housing, of_ring.as_ref())
-    }
-
-    /// Where the ring sits: in the mesh's axes, or in its own.
-    pub(crate) fn frame(&self) -> RingFrame {
-        let housing = self.housing.as_ref();
-        housing.map_or_else(RingFrame::default, |(_, model)| *model.frame())
+        mode_set(&modes.basis.frequencies_hz, housing, &of_rings.unwrap_or_default())
     }
 }
 
-/// `K x = (2 pi f)^2 M x` of a housing, of a ring, or of both coupled in full (nothing condensed); its f are the case's
+/// `K x = (2 pi f)^2 M x` of a housing, of rings, or of both coupled in full (nothing condensed); its f are the case's
 /// eigenfrequencies.
 ///
 /// Rows that are fixed, or that a tie or a link drives, are left out: their share is with what drives them.
@@ -275,11 +263,11 @@ impl FreeSystem {
     /// [`ComputeError`] of mesh, model, elements, ring and tie.
     pub(crate) fn build(case: &Case, watch: &impl Watch) -> Result<Self, ComputeError> {
         if let Some(path) = case.superelement()
-            && let Some(asked) = &case.ring
+            && case.has_rings()
         {
-            let bodies = RingInHousing::around_file(case, asked, path, watch)?;
+            let bodies = RingsInHousing::around_file(case, path, watch)?;
             let matrices = bodies.matrices()?;
-            let mut rows = of_ring(&bodies.ring, &bodies.frame());
+            let mut rows = of_rings(&bodies.rings);
             let modes = (0..(matrices.mass.rows() - rows.len()) as u64).map(DofLabel::modal);
             rows.extend(modes);
             return Ok(Self { stiffness: matrices.stiffness, mass: matrices.mass, rows });
@@ -289,9 +277,7 @@ impl FreeSystem {
         if let Some((_, model)) = &bodies.housing {
             labels.extend(of_housing(model, bodies.tie.as_ref()));
         }
-        if let Some(ring) = &bodies.ring {
-            labels.extend(of_ring(ring, &bodies.frame()));
-        }
+        labels.extend(bodies.rings.iter().flat_map(of_rings));
         let free = &matrices.free_dofs;
         Ok(Self {
             stiffness: submatrix(&matrices.stiffness, free, free),

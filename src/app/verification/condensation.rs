@@ -75,7 +75,7 @@ impl Housing {
     /// Ring and housing without any reduction: (K, M) over ring displacements, then interior ones.
     fn full(&self) -> Result<(SparseMatrix, SparseMatrix), VerificationError> {
         let matrices = SystemMatrices::assemble(&self.model)?;
-        let coupled = CoupledMatrices::new(&matrices, &self.tie, &self.ring);
+        let coupled = CoupledMatrices::new(&matrices, &self.tie, &self.ring.clone().into());
         let first = coupled.stiffness.rows() - self.ring.dof();
         let (interior, ring): (Vec<usize>, Vec<usize>) = coupled.free_dofs.iter().partition(|&&dof| dof < first);
         let order = [ring, interior].concat();

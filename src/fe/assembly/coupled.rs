@@ -1,26 +1,26 @@
-//! A housing, a ring, or the housing with the ring in its bore in one system of sparse matrices, nothing condensed.
+//! A housing, rings, or the housing with rings in its bores in one system of sparse matrices, nothing condensed.
 
 use super::SystemMatrices;
-use crate::fe::model::{HousingModel, Ring, RingTie};
+use crate::fe::model::{HousingModel, RingTie, Rings};
 use crate::numerics::linalg::{
     DenseMatrix, SparseMatrix, TripletBuilder, congruence, placed, sparse_times_dense, transpose_times_dense,
 };
 
-/// Stiffness and mass over the housing's degrees of freedom, then the ring's; one of the two may be missing. Rows and
-/// columns of what the tie drives are empty: their share is with the ring.
+/// Stiffness and mass over the housing's degrees of freedom, then the rings'; one of the two may be missing. Rows and
+/// columns of what the tie drives are empty: their share is with the rings.
 #[derive(Debug, Clone)]
 pub struct CoupledMatrices {
     /// Stiffness [n x n], N/m.
     pub stiffness: SparseMatrix,
     /// Mass [n x n], kg.
     pub mass: SparseMatrix,
-    /// Free degrees of freedom, ascending: the housing's interior and the ring.
+    /// Free degrees of freedom, ascending: the housing's interior and the rings.
     pub free_dofs: Vec<usize>,
     /// What the coordinates mean.
     pub motions: CoupledMotions,
 }
 
-/// Displacements of housing and ring from the coordinates of both, and back.
+/// Displacements of housing and rings from the coordinates of both, and back.
 #[derive(Debug, Clone)]
 pub struct CoupledMotions {
     /// Housing displacements in the mesh's axes from all coordinates [housing dof x n].
@@ -30,11 +30,11 @@ pub struct CoupledMotions {
 }
 
 impl CoupledMatrices {
-    /// Couples a housing to a ring.
-    pub fn new(matrices: &SystemMatrices, tie: &RingTie, ring: &Ring) -> Self {
+    /// Couples a housing to the rings in its bores.
+    pub fn new(matrices: &SystemMatrices, tie: &RingTie, rings: &Rings) -> Self {
         let partition = tie.partition();
         let housing_dof = matrices.stiffness.rows();
-        let order = housing_dof + ring.dof();
+        let order = housing_dof + rings.dof();
         let mut driven = vec![false; housing_dof];
         let mut expand = TripletBuilder::new(housing_dof, order);
         for &dof in &partition.driven {
@@ -52,15 +52,15 @@ impl CoupledMatrices {
         if let Some(rotation) = tie.rotation() {
             recovery = (rotation * &recovery).to_csc();
         }
-        let with_ring = |housing: &SparseMatrix, ring: &DenseMatrix| {
-            &congruence(housing, &recovery) + &placed(ring, housing_dof, order)
+        let with_rings = |housing: &SparseMatrix, rings: &DenseMatrix| {
+            &congruence(housing, &recovery) + &placed(rings, housing_dof, order)
         };
         let ring_dofs = housing_dof..order;
         Self {
-            stiffness: with_ring(&matrices.stiffness, ring.stiffness()),
-            mass: with_ring(&matrices.mass, ring.mass()),
+            stiffness: with_rings(&matrices.stiffness, rings.stiffness()),
+            mass: with_rings(&matrices.mass, rings.mass()),
             free_dofs: partition.interior.iter().copied().chain(ring_dofs).collect(),
-            motions: CoupledMotions { recovery, housing_dof, ring_dof: ring.dof() },
+            motions: CoupledMotions { recovery, housing_dof, ring_dof: rings.dof() },
         }
     }
 
@@ -78,12 +78,12 @@ impl CoupledMatrices {
         }
     }
 
-    /// A ring alone.
-    pub(crate) fn of_ring(ring: &Ring) -> Self {
-        Self::of_condensed(ring.stiffness(), ring.mass(), ring.dof())
+    /// Rings alone.
+    pub(crate) fn of_rings(rings: &Rings) -> Self {
+        Self::of_condensed(rings.stiffness(), rings.mass(), rings.dof())
     }
 
-    /// A ring in a housing that is condensed already: stiffness and mass [n x n] over the ring's displacements, then
+    /// Rings in a housing that is condensed already: stiffness and mass [n x n] over the rings' displacements, then
     /// over amplitudes of the housing's modes. Nothing of the housing can be recovered.
     pub(crate) fn of_condensed(stiffness: &DenseMatrix, mass: &DenseMatrix, ring_dof: usize) -> Self {
         let order = stiffness.nrows();
@@ -108,24 +108,24 @@ impl CoupledMotions {
     }
 
     /// A matrix of the housing in the mesh's axes [housing dof x housing dof], such as its structural damping, over the
-    /// coordinates of housing and ring [n x n]; the ring adds nothing.
+    /// coordinates of housing and rings [n x n]; the rings add nothing.
     pub fn congruent(&self, housing: &SparseMatrix) -> SparseMatrix {
         congruence(housing, &self.recovery)
     }
 
-    /// Displacements of the ring [ring dof x k] for coordinates x [n x k].
-    pub(crate) fn ring(&self, x: &DenseMatrix) -> DenseMatrix {
+    /// Displacements of the rings [ring dof x k] for coordinates x [n x k].
+    pub(crate) fn rings(&self, x: &DenseMatrix) -> DenseMatrix {
         x.submatrix(self.housing_dof, 0, self.ring_dof, x.ncols()).to_owned()
     }
 
-    /// Coordinates [n x k] of motions given for the housing in the mesh's axes [housing dof x k] and for the ring
-    /// [ring dof x k]. What the tie drives follows the ring.
-    pub(crate) fn coordinates(&self, housing: &DenseMatrix, ring: &DenseMatrix) -> DenseMatrix {
+    /// Coordinates [n x k] of motions given for the housing in the mesh's axes [housing dof x k] and for the rings
+    /// [ring dof x k]. What the tie drives follows the rings.
+    pub(crate) fn coordinates(&self, housing: &DenseMatrix, rings: &DenseMatrix) -> DenseMatrix {
         // the recovery's columns of the housing are orthonormal or empty
         let mut x = transpose_times_dense(&self.recovery, housing);
         for column in 0..x.ncols() {
-            for row in 0..ring.nrows() {
-                x[(self.housing_dof + row, column)] = ring[(row, column)];
+            for row in 0..rings.nrows() {
+                x[(self.housing_dof + row, column)] = rings[(row, column)];
             }
         }
         x

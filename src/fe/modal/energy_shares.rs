@@ -5,13 +5,13 @@
 use super::error::{ModalError, check_count};
 use super::strain_products::sum_over_elements;
 use crate::fe::mesh::Mesh;
-use crate::fe::model::{HousingModel, NodalMatrix, NodalSource, Ring};
+use crate::fe::model::{HousingModel, NodalMatrix, NodalSource, RingSeat, Rings};
 use crate::numerics::linalg::DenseMatrix;
 use schemars::JsonSchema;
 use serde::Serialize;
 use std::iter::once;
 
-/// Name of the springs between ring and ground among the others.
+/// Name of the springs between a ring and the ground among the others.
 const RING_SPRINGS: &str = "ring supports";
 
 /// Energy of modes by where it is. Numbers of a mode are in the order of the names here.
@@ -22,7 +22,7 @@ pub struct EnergyShares {
     /// Physical groups of volumes (plane: surfaces), in the mesh's order. Groups may overlap or leave elements out.
     pub groups: Vec<String>,
     /// Supports and links with springs: the group, or `first - second`; supports first, in the order of the case; then
-    /// the springs of the ring, as `ring supports`.
+    /// the springs of each ring, as `ring supports` or `ring supports A`.
     pub springs: Vec<String>,
     /// Groups of the point masses, in the order of the case.
     pub masses: Vec<String>,
@@ -52,7 +52,7 @@ pub struct StrainShares {
     pub parts: Vec<f64>,
     /// By physical group.
     pub groups: Vec<f64>,
-    /// In the ring's beams; `None` without a ring.
+    /// In the beams of all rings; `None` without a ring.
     pub ring: Option<f64>,
     /// By support or link.
     pub springs: Vec<f64>,
@@ -65,7 +65,7 @@ pub struct KineticShares {
     pub parts: Vec<f64>,
     /// By physical group.
     pub groups: Vec<f64>,
-    /// In the ring; `None` without a ring.
+    /// In all rings; `None` without a ring.
     pub ring: Option<f64>,
     /// By point mass.
     pub masses: Vec<f64>,
@@ -75,8 +75,8 @@ pub struct KineticShares {
 type Energies = (StrainShares, KineticShares);
 
 impl EnergyShares {
-    /// Shares of the modes of a housing and of the ring in its bore, or of one of them; the first `rigid_modes` are motions without
-    /// strain. Of the housing: modes Phi [dof x count] over all degrees of freedom (tied nodes filled in); of the ring: its part of
+    /// Shares of the modes of a housing and of the rings in its bores, or of one of them; the first `rigid_modes` are motions without
+    /// strain. Of the housing: modes Phi [dof x count] over all degrees of freedom (tied nodes filled in); of the rings: their part of
     /// the same modes [ring dof x count]. A tie has no energy of its own.
     ///
     /// All modes in one pass over the elements, `phi_e^T K_e phi_e` and `phi_e^T M_e phi_e`, in parallel; the
@@ -88,19 +88,22 @@ impl EnergyShares {
     /// tag of an element that is inverted or degenerate.
     pub fn new(
         housing: Option<(&Mesh, &HousingModel, &DenseMatrix)>,
-        ring: Option<(&Ring, &DenseMatrix)>,
+        rings: Option<(&Rings, &DenseMatrix)>,
         rigid_modes: usize,
     ) -> Result<Self, ModalError> {
-        let of_ring = ring.map(|(_, shapes)| shapes.ncols());
-        let count = housing.map(|(.., shapes)| shapes.ncols()).or(of_ring).unwrap_or(0);
-        check_count("modes of the ring", count, of_ring.unwrap_or(count))?;
+        let of_rings = rings.map(|(_, shapes)| shapes.ncols());
+        let count = housing.map(|(.., shapes)| shapes.ncols()).or(of_rings).unwrap_or(0);
+        check_count("modes of the ring", count, of_rings.unwrap_or(count))?;
         let mut energies = vec![Energies::default(); count];
         let mut shares = Self::default();
         if let Some((mesh, model, shapes)) = housing {
             shares.add_housing(mesh, model, shapes, &mut energies)?;
         }
-        if let Some((ring, shapes)) = ring {
-            shares.add_ring(ring, shapes, &mut energies)?;
+        if let Some((rings, shapes)) = rings {
+            check_count("rows of the ring's modes", rings.dof(), shapes.nrows())?;
+            for seat in rings.seats() {
+                shares.add_ring(seat, &shapes.subrows(seat.first, seat.ring.dof()).to_owned(), &mut energies);
+            }
         }
         let modes = energies.into_iter().enumerate().map(|(mode, (strain, kinetic))| {
             let sum = |values: [&[f64]; 2], ring: Option<f64>| -> f64 {
@@ -169,17 +172,17 @@ impl EnergyShares {
         Ok(())
     }
 
-    fn add_ring(&mut self, ring: &Ring, shapes: &DenseMatrix, energies: &mut [Energies]) -> Result<(), ModalError> {
-        check_count("rows of the ring's modes", ring.dof(), shapes.nrows())?;
+    /// Adds the energies of a ring from modes over its own coordinates [ring dof x count].
+    fn add_ring(&mut self, RingSeat { ring, label, .. }: &RingSeat, shapes: &DenseMatrix, energies: &mut [Energies]) {
         let heavy = ring.mass() * shapes;
         for (mode, (strain, kinetic)) in energies.iter_mut().enumerate() {
             let own = ring.strain_products(&shapes.subcols(mode, 1).to_owned());
-            strain.ring = Some(own.beams[(0, 0)]);
-            kinetic.ring = Some(shapes.col(mode).transpose() * heavy.col(mode));
+            *strain.ring.get_or_insert(0.0) += own.beams[(0, 0)];
+            *kinetic.ring.get_or_insert(0.0) += shapes.col(mode).transpose() * heavy.col(mode);
             strain.springs.extend((!ring.springs.is_empty()).then(|| own.springs[(0, 0)]));
         }
-        self.springs.extend((!ring.springs.is_empty()).then(|| RING_SPRINGS.to_owned()));
-        Ok(())
+        let name = format!("{RING_SPRINGS} {label}");
+        self.springs.extend((!ring.springs.is_empty()).then(|| name.trim_end().to_owned()));
     }
 }
 

@@ -159,7 +159,7 @@ fn a_ring_has_its_share() {
         let (model, basis) = (&solved.model, &solved.basis);
         let (shapes, of_ring) = (&solved.housing, &solved.of_ring);
         let found =
-            EnergyShares::new(Some((&cells.mesh, model, shapes)), Some((&solved.ring, of_ring)), basis.rigid_modes);
+            EnergyShares::new(Some((&cells.mesh, model, shapes)), Some((&solved.rings, of_ring)), basis.rigid_modes);
         let found = found.expect("modes of this model");
         assert_eq!(found.springs, ["top", "ring supports"]);
         let own = |k: &DenseMatrix, mode: usize| -> f64 {
@@ -196,7 +196,7 @@ fn a_ring_has_its_share() {
                 let largest = k.data().iter().fold(0.0_f64, |k, value| k.max(value.abs()));
                 largest * shapes.col(mode).squared_norm_l2()
             };
-            let (k, m) = (solved.ring.stiffness(), solved.ring.mass());
+            let (k, m) = (solved.rings.stiffness(), solved.rings.mass());
             let (strain_sum, kinetic_sum) = (shares.doubled_strain, shares.doubled_kinetic);
             let share = strain.ring.expect("a ring") + strain.springs[1];
             close(share, own(k, mode), strain_sum, ring_entries(k));
@@ -214,7 +214,7 @@ fn a_ring_has_its_share() {
         let most = found.modes.iter().filter_map(|mode| mode.strain.as_ref()?.ring);
         assert!(most.fold(0.0, f64::max) > 0.05);
         let other =
-            EnergyShares::new(Some((&cells.mesh, model, shapes)), Some((&solved.ring, &DenseMatrix::zeros(5, 12))), 0);
+            EnergyShares::new(Some((&cells.mesh, model, shapes)), Some((&solved.rings, &DenseMatrix::zeros(5, 12))), 0);
         assert!(matches!(other, Err(ModalError::Shape { .. })));
     }
 }

@@ -2,31 +2,35 @@
 
 use super::{ModalComparison, ModeSet};
 use crate::fe::mesh::Mesh;
-use crate::fe::model::{HousingModel, Ring, RingFrame};
+use crate::fe::model::{HousingModel, RingSeat, Rings};
 use crate::numerics::linalg::DenseMatrix;
 
-/// Modes of a housing, a ring, or both, at the nodes of the mesh and then those of the ring, in one list: of the housing its
+/// Modes of a housing, of rings, or both, at the nodes of the mesh and then those of the rings, in one list: of the housing its
 /// displacements in the mesh's axes [dof x modes]. Labelled by the mesh's tags where no node of a ring is among them.
 pub(crate) fn mode_set(
     frequencies_hz: &[f64],
     housing: Option<(&Mesh, &HousingModel, &DenseMatrix)>,
-    ring: Option<&RingShapes>,
+    rings: &[RingShapes],
 ) -> ModeSet {
     let mut points = housing.map_or(Vec::new(), |(mesh, ..)| mesh.nodes.clone());
     let nodes = points.len();
-    points.extend(ring.iter().flat_map(|ring| &ring.points));
+    points.extend(rings.iter().flat_map(|ring| &ring.points));
+    let of_rings: Vec<(&RingShapes, usize)> =
+        rings.iter().flat_map(|ring| (0..ring.points.len()).map(move |node| (ring, node))).collect();
     let shapes = DenseMatrix::from_fn(3 * points.len(), frequencies_hz.len(), |row, mode| {
         let (point, axis) = (row / 3, row % 3);
-        match (housing, ring) {
-            (Some((_, model, shapes)), _) if point < nodes => {
+        match housing {
+            Some((_, model, shapes)) if point < nodes => {
                 let d = model.dimension();
                 if axis < d { shapes[(d * point + axis, mode)] } else { 0.0 }
             }
-            (_, Some(ring)) => ring.displacements[mode][point - nodes][axis],
-            _ => 0.0,
+            _ => {
+                let (ring, node) = of_rings[point - nodes];
+                ring.displacements[mode][node][axis]
+            }
         }
     });
-    let node_tags = housing.filter(|_| ring.is_none()).map(|(mesh, ..)| mesh.node_tags.clone());
+    let node_tags = housing.filter(|_| rings.is_empty()).map(|(mesh, ..)| mesh.node_tags.clone());
     ModeSet { frequencies_hz: frequencies_hz.to_vec(), points, node_tags, shapes, directions: None }
 }
 
@@ -62,7 +66,7 @@ pub(crate) fn partners(own: &ModeSet, other: &ModeSet, found: &ModalComparison) 
     partners
 }
 
-/// Displacements of a ring's nodes in the mesh's axes.
+/// Displacements of one ring's nodes in the mesh's axes.
 #[derive(Debug, Clone, PartialEq)]
 pub struct RingShapes {
     /// The nodes, m.
@@ -72,7 +76,14 @@ pub struct RingShapes {
 }
 
 impl RingShapes {
-    pub(crate) fn new(ring: &Ring, frame: &RingFrame, shapes: &DenseMatrix) -> Self {
+    /// Of all rings from shapes over their coordinates [ring dof x modes].
+    pub(crate) fn of_all(rings: &Rings, shapes: &DenseMatrix) -> Vec<Self> {
+        let of_seat = |seat: &RingSeat| Self::new(seat, &shapes.subrows(seat.first, seat.ring.dof()).to_owned());
+        rings.seats().iter().map(of_seat).collect()
+    }
+
+    /// Of one ring from shapes over its own coordinates [ring dof x modes].
+    fn new(RingSeat { ring, frame, .. }: &RingSeat, shapes: &DenseMatrix) -> Self {
         let points = (0..ring.nodes()).map(|node| frame.point_to_mesh(ring.node_position(node)));
         let displacements = (0..shapes.ncols())
             .map(|mode| {

@@ -1,7 +1,7 @@
 //! Rigid motions of a set of nodes, and modes over all degrees of freedom.
 
 use super::error::{ModalError, check_count};
-use crate::fe::model::{HousingModel, Ring, RingFrame};
+use crate::fe::model::{HousingModel, RingSeat, Rings};
 use crate::numerics::linalg::{DenseMatrix, scattered_rows, sparse_times_dense};
 
 /// Unit rigid motions R of some nodes [d nodes x 3 or 6]: translations along x, y (and z), m, then rotations about
@@ -64,9 +64,19 @@ pub fn over_all_dofs(
     })
 }
 
-/// Unit rigid motions of a ring's nodes [ring dof x 3 or 6] in the order of [`rigid_motions`]: along the mesh's axes and
-/// about axes along them through `about` (m), for a ring that sits at `frame`.
-pub(crate) fn ring_motions(ring: &Ring, frame: &RingFrame, about: [f64; 3]) -> DenseMatrix {
+/// Unit rigid motions of all rings' nodes [ring dof x 3 or 6] in the order of [`rigid_motions`]: along the mesh's axes and
+/// about axes along them through `about` (m).
+pub(crate) fn ring_motions(rings: &Rings, about: [f64; 3]) -> DenseMatrix {
+    let mut all = DenseMatrix::zeros(rings.dof(), if rings.are_in_space() { 6 } else { 3 });
+    for seat in rings.seats() {
+        let own = seat_motions(seat, about);
+        all.subrows_mut(seat.first, own.nrows()).copy_from(own);
+    }
+    all
+}
+
+/// The same of one ring.
+pub(super) fn seat_motions(RingSeat { ring, frame, .. }: &RingSeat, about: [f64; 3]) -> DenseMatrix {
     let centre = frame.centre();
     let arm = [0, 1, 2].map(|axis| centre[axis] - about[axis]);
     let motion = |axis: usize, turns: bool| {

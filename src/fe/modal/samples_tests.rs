@@ -10,7 +10,7 @@ use crate::fe::mesh::{
 };
 use crate::fe::model::{
     Constraint, Fit, HousingDescription, HousingModel, HousingPart, HousingSupport, PlaneModel, Ring, RingFrame,
-    RingTie, SupportShare,
+    RingTie, Rings, SupportShare,
 };
 use crate::numerics::linalg::{DenseMatrix, EigenProblem, scattered_rows};
 use std::collections::BTreeMap;
@@ -183,7 +183,7 @@ pub(super) struct Ringed {
     pub model: HousingModel,
     pub matrices: SystemMatrices,
     pub tie: RingTie,
-    pub ring: Ring,
+    pub rings: Rings,
     pub basis: ModalBasis,
     /// Shapes of the housing, tied nodes filled in [dof x count].
     pub housing: DenseMatrix,
@@ -227,18 +227,19 @@ pub(super) fn ringed(mesh: &Mesh, description: HousingDescription, ring: Ring, f
     let model = HousingModel::new(mesh, description).expect("a model");
     let radius = 0.1 * 2.0_f64.sqrt();
     let tie = RingTie::new(mesh, &model, "bore", &ring, radius, fit).expect("at the ring");
+    let rings = Rings::one(ring.clone(), *model.frame());
     let matrices = SystemMatrices::assemble(&model).expect("matrices");
-    let CoupledMatrices { stiffness, mass, free_dofs, motions } = CoupledMatrices::new(&matrices, &tie, &ring);
+    let CoupledMatrices { stiffness, mass, free_dofs, motions } = CoupledMatrices::new(&matrices, &tie, &rings);
     let problem = EigenProblem::restricted(&stiffness, &mass, &free_dofs).expect("an order");
     let mut basis = ModalBasis::of(&problem, ModeRange::Count(count)).expect("converges");
     let over_all = |shapes: &DenseMatrix| scattered_rows(shapes, &free_dofs, mass.rows());
     let products = |shapes: &DenseMatrix| {
         let all = over_all(shapes);
-        let strain = ring.strain_products(&motions.ring(&all));
+        let strain = ring.strain_products(&motions.rings(&all));
         let housing = strain_products(&model, &motions.housing(&model, &all))?;
         Ok::<_, super::ModalError>(housing + strain.beams + strain.springs)
     };
     basis.sharpen(products).expect("of its order");
     let all = over_all(&basis.shapes);
-    Ringed { housing: motions.housing(&model, &all), of_ring: motions.ring(&all), model, matrices, tie, ring, basis }
+    Ringed { housing: motions.housing(&model, &all), of_ring: motions.rings(&all), model, matrices, tie, rings, basis }
 }

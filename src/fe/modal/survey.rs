@@ -1,4 +1,4 @@
-//! The modes of a housing, a ring, or both, without contact and in full: nothing condensed.
+//! The modes of a housing, of rings, or both, without contact and in full: nothing condensed.
 
 use super::full_modes::{FullModes, Products};
 use super::mode_shapes::{RingShapes, mode_set};
@@ -8,7 +8,7 @@ use super::{
 };
 use crate::fe::assembly::{CoupledMatrices, CoupledMotions, SystemMatrices};
 use crate::fe::mesh::Mesh;
-use crate::fe::model::{HousingModel, Ring, RingFrame, RingTie};
+use crate::fe::model::{HousingModel, RingTie, Rings};
 use crate::numerics::Watch;
 use crate::numerics::linalg::{DenseMatrix, sparse_times_dense};
 
@@ -33,8 +33,8 @@ pub struct ModalSurvey {
     pub mechanisms: Option<Mechanisms>,
     /// Displacements of the housing's degrees of freedom in the mesh's axes [dof x count].
     pub housing: Option<DenseMatrix>,
-    /// How the ring moves.
-    pub ring: Option<RingShapes>,
+    /// How each ring moves.
+    pub rings: Vec<RingShapes>,
 }
 
 impl ModalSurvey {
@@ -101,77 +101,81 @@ impl ModalSurvey {
             shares: None,
             mechanisms: None,
             housing: None,
-            ring: None,
+            rings: Vec::new(),
         }
     }
 
     /// The modes at the nodes of the mesh and of the ring; `housing` is what they are of.
     pub(crate) fn mode_set(&self, housing: Option<(&Mesh, &HousingModel)>) -> ModeSet {
         let housing = housing.zip(self.housing.as_ref()).map(|((mesh, model), shapes)| (mesh, model, shapes));
-        mode_set(&self.basis.frequencies_hz, housing, self.ring.as_ref())
+        mode_set(&self.basis.frequencies_hz, housing, &self.rings)
     }
 
-    /// Modes of a housing and the ring in it, tied to its bore.
+    /// Modes of a housing and the rings in it, tied to its bores.
     ///
     /// # Errors
     /// [`ModalError`] of eigenvalue computation and analysis.
     pub(crate) fn of_coupled(
         (mesh, model, matrices): (&Mesh, &HousingModel, &SystemMatrices),
         tie: &RingTie,
-        ring: &Ring,
+        rings: &Rings,
         range: ModeRange,
         watch: &impl Watch,
     ) -> Result<Self, ModalError> {
-        let frame = model.frame();
-        let matrices = CoupledMatrices::new(matrices, tie, ring);
+        let matrices = CoupledMatrices::new(matrices, tie, rings);
         let rigid_about = |about: [f64; 3]| {
             let of_housing = rigid_motions(model.coordinates(), model.dimension(), about);
-            let of_ring = ring_motions(ring, frame, about);
-            matrices.motions.coordinates(&of_housing, &of_ring)
+            matrices.motions.coordinates(&of_housing, &ring_motions(rings, about))
         };
-        let mass = MassProperties::about_centroid(&matrices.mass, frame.centre(), rigid_about)?;
+        let mass = MassProperties::about_centroid(&matrices.mass, model.frame().centre(), rigid_about)?;
         let rigid = rigid_about(centroid(&mass));
         let products = |motions: &CoupledMotions, all: &DenseMatrix| {
-            let of_ring = ring.strain_products(&motions.ring(all));
             let of_housing = strain_products(model, &motions.housing(model, all))?;
-            Ok(of_housing + of_ring.beams + of_ring.springs)
+            Ok(with_strain_of(rings, &motions.rings(all), of_housing))
         };
         let (survey, motions, all) = Self::analysed(matrices, range, (mass, &rigid), &products, watch)?;
         watch.stage("analyse");
-        let (shapes, of_ring) = (motions.housing(model, &all), motions.ring(&all));
+        let (shapes, of_rings) = (motions.housing(model, &all), motions.rings(&all));
         let (housing, rigid_modes) = (Some((mesh, model, &shapes)), survey.basis.rigid_modes);
         Ok(Self {
-            shares: Some(EnergyShares::new(housing, Some((ring, &of_ring)), rigid_modes)?),
-            mechanisms: Mechanisms::find_in(mesh, model, &Bore::Ring(tie, ring))?,
+            shares: Some(EnergyShares::new(housing, Some((rings, &of_rings)), rigid_modes)?),
+            mechanisms: Mechanisms::find_in(mesh, model, &Bore::Rings(tie, rings))?,
             housing: Some(shapes),
-            ring: Some(RingShapes::new(ring, frame, &of_ring)),
+            rings: RingShapes::of_all(rings, &of_rings),
             ..survey
         })
     }
 
-    /// Modes of a ring alone.
+    /// Modes of rings alone.
     ///
     /// # Errors
     /// [`ModalError`] of eigenvalue computation and analysis.
-    pub(crate) fn of_ring(ring: &Ring, range: ModeRange, watch: &impl Watch) -> Result<Self, ModalError> {
-        let frame = RingFrame::default();
-        let rigid = ring_motions(ring, &frame, [0.0; 3]);
-        let matrices = CoupledMatrices::of_ring(ring);
+    pub(crate) fn of_rings(rings: &Rings, range: ModeRange, watch: &impl Watch) -> Result<Self, ModalError> {
+        let rigid = ring_motions(rings, [0.0; 3]);
+        let matrices = CoupledMatrices::of_rings(rings);
         let inertia = rigid.transpose() * sparse_times_dense(&matrices.mass, &rigid);
         let mass = MassProperties::from_rigid_inertia(&inertia, [0.0; 3])?;
         let products = |_: &CoupledMotions, all: &DenseMatrix| {
-            let strain = ring.strain_products(all);
-            Ok(strain.beams + strain.springs)
+            Ok(with_strain_of(rings, all, DenseMatrix::zeros(all.ncols(), all.ncols())))
         };
         let (survey, _, all) = Self::analysed(matrices, range, (mass, &rigid), &products, watch)?;
-        let of_ring = || EnergyShares::new(None, Some((ring, &all)), survey.basis.rigid_modes);
+        let of_rings = || EnergyShares::new(None, Some((rings, &all)), survey.basis.rigid_modes);
+        let springs = rings.seats().iter().any(|seat| !seat.ring.springs.is_empty());
         Ok(Self {
-            shares: (!ring.springs.is_empty()).then(of_ring).transpose()?,
-            mechanisms: Some(Mechanisms::of_ring(ring)),
-            ring: Some(RingShapes::new(ring, &frame, &all)),
+            shares: springs.then(of_rings).transpose()?,
+            mechanisms: Some(Mechanisms::of_rings(rings)),
+            rings: RingShapes::of_all(rings, &all),
             ..survey
         })
     }
+}
+
+/// Adds the strain energies of all rings, `phi^T K phi` of modes over their coordinates, to those of the rest [modes x modes].
+fn with_strain_of(rings: &Rings, shapes: &DenseMatrix, rest: DenseMatrix) -> DenseMatrix {
+    rings.seats().iter().fold(rest, |sum, seat| {
+        let own = seat.ring.strain_products(&shapes.subrows(seat.first, seat.ring.dof()).to_owned());
+        sum + own.beams + own.springs
+    })
 }
 
 fn centroid(mass: &MassProperties) -> [f64; 3] {

@@ -19,13 +19,14 @@
 //!
 //! How the degrees of freedom of a housing split at its interface, and nodes of the mesh as one.
 
-use super::{HousingModel, ModelError, Ring};
+use super::{HousingModel, ModelError, Ring, RingFrame, RingSeat, Rings};
 use crate::fe::mesh::Mesh;
 use crate::numerics::Brief;
 use crate::numerics::linalg::{SparseMatrix, TripletBuilder};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeSet;
+use std::ops::Range;
 
 /// Deviation of a bore node from the ring's outer radius, and of the ring's plane from the bore, that a tie accepts,
 /// relative to that radius. Chords of a
@@ -47,22 +48,35 @@ pub enum Fit {
     Sliding,
 }
 
-/// A tie, ready to partition the housing's degrees of freedom.
+/// The bore that a ring is tied to.
+#[derive(Debug, Clone, Copy)]
+pub struct Bore<'a> {
+    /// Group of its nodes.
+    pub group: &'a str,
+    /// Outer radius of the ring, m; where it is not known, the nodes may be anywhere.
+    pub outer_radius: Option<f64>,
+    /// What the nodes follow.
+    pub fit: Fit,
+}
+
+/// The tie of one or more bores to their rings, ready to partition the housing's degrees of freedom.
 ///
 /// With a sliding fit the bore nodes' displacements are (radial, tangential, axial) instead of (x, y, z).
 #[derive(Debug, Clone)]
 pub struct RingTie {
     partition: HousingPartition,
+    /// Of each bore, which of the driven degrees of freedom are its.
+    driven: Vec<Range<usize>>,
     /// Turns the partition's displacements to the mesh's axes: `u = rotation u'` [dof x dof].
     rotation: Option<SparseMatrix>,
 }
 
 impl RingTie {
-    /// Ties the nodes of `group` to the ring, whose outer radius is `outer_radius` (m); where it is not known, the nodes may be anywhere.
+    /// Ties the nodes of `group` to a ring in the model's frame, whose outer radius is `outer_radius` (m); where it is not known, the
+    /// nodes may be anywhere.
     ///
     /// # Errors
-    /// [`ModelError::Refused`] if the nodes are not at the ring, are fixed or tied elsewhere, for a plane ring in a solid
-    /// housing or the other way round, and what finding the group reports.
+    /// As [`RingTie::of_bores`].
     pub fn new(
         mesh: &Mesh,
         housing: &HousingModel,
@@ -71,43 +85,50 @@ impl RingTie {
         outer_radius: impl Into<Option<f64>>,
         fit: Fit,
     ) -> Result<Self, ModelError> {
-        if ring.is_in_space() != (housing.dimension == 3) {
+        let rings = Rings::one(ring.clone(), housing.frame);
+        Self::of_bores(mesh, housing, &rings, &[Bore { group, outer_radius: outer_radius.into(), fit }])
+    }
+
+    /// Ties each bore to the ring of the same place in `rings`.
+    ///
+    /// # Errors
+    /// [`ModelError::Refused`] if nodes are not at their ring, are fixed, tied elsewhere or in two bores, for a plane ring in a solid
+    /// housing or the other way round, and what finding a group reports.
+    pub fn of_bores(
+        mesh: &Mesh,
+        housing: &HousingModel,
+        rings: &Rings,
+        bores: &[Bore<'_>],
+    ) -> Result<Self, ModelError> {
+        if rings.are_in_space() != (housing.dimension == 3) {
             return Err(ModelError::Refused(format!(
                 "{}: a solid housing needs a ring in space, a plane one a ring in the plane",
                 housing.path
             )));
         }
-        let bore = housing.group_on_housing(mesh, group, "the tie")?;
-        let on_housing = |node: &usize| housing.used[*node];
-        let nodes: Vec<usize> = bore.nodes.iter().copied().filter(on_housing).collect();
-        if let Some(outer_radius) = outer_radius.into() {
-            check_places(housing, group, &nodes, outer_radius)?;
+        let mut rows = TieRows { of_node: vec![None; housing.coordinates.len()], ..TieRows::default() };
+        let mut ranges = Vec::new();
+        for (place, (seat, bore)) in rings.seats().iter().zip(bores).enumerate() {
+            let before = rows.driven.len();
+            rows.add(mesh, housing, seat, bore, place, bores)?;
+            ranges.push(before..rows.driven.len());
         }
-        check_free(housing, group, &nodes)?;
-        let d = housing.dimension;
-        let components = if fit == Fit::Bonded { d } else { 1 };
-        let mut driven = Vec::with_capacity(components * nodes.len());
-        let mut tie = TripletBuilder::new(components * nodes.len(), ring.dof());
-        for &node in &nodes {
-            let polar = section_rows(housing, ring, node);
-            let axes = housing.frame.polar_axes(housing.coordinates[node]);
-            for component in 0..components {
-                let along = axes.map(|axis| axis[component]);
-                let row = driven.len();
-                driven.push(d * node + component);
-                for (dof, moves) in &polar {
-                    let factor = match fit {
-                        Fit::Bonded => (0..3).map(|k| moves[k] * along[k]).sum(),
-                        Fit::Sliding => moves[0],
-                    };
-                    tie.add(row, *dof, factor);
-                }
-            }
-        }
+        let TieRows { driven, entries, of_node } = rows;
+        let mut tie = TripletBuilder::new(driven.len(), rings.dof());
+        entries.into_iter().for_each(|(row, column, factor)| tie.add(row, column, factor));
+        let sliding =
+            |place: Option<usize>| Some(&rings.seats()[place.filter(|&place| bores[place].fit == Fit::Sliding)?]);
+        let slides = bores.iter().any(|bore| bore.fit == Fit::Sliding);
         Ok(Self {
             partition: HousingPartition::new(housing, driven, tie.build()),
-            rotation: (fit == Fit::Sliding).then(|| polar_rotation(housing, &nodes)),
+            driven: ranges,
+            rotation: slides.then(|| polar_rotation(housing, |node| sliding(of_node[node]).map(|seat| &seat.frame))),
         })
+    }
+
+    /// Degrees of freedom that follow each ring.
+    pub(crate) fn driven(&self) -> impl Iterator<Item = &[usize]> {
+        self.driven.iter().map(|range| &self.partition.driven[range.clone()])
     }
 
     /// The split of the housing's degrees of freedom.
@@ -144,10 +165,67 @@ impl RingTie {
     }
 }
 
-/// Displacement (radial, tangential, axial) of the ring's section at a bore node, for each of the ring's
+/// Rows of a tie under construction.
+#[derive(Default)]
+struct TieRows {
+    driven: Vec<usize>,
+    /// Row, column, factor.
+    entries: Vec<(usize, usize, f64)>,
+    /// Which bore has a node.
+    of_node: Vec<Option<usize>>,
+}
+
+impl TieRows {
+    /// The nodes of the bore at `place` follow the ring of `seat`.
+    fn add(
+        &mut self,
+        mesh: &Mesh,
+        housing: &HousingModel,
+        seat: &RingSeat,
+        bore: &Bore<'_>,
+        place: usize,
+        bores: &[Bore<'_>],
+    ) -> Result<(), ModelError> {
+        let group = bore.group;
+        let found = housing.group_on_housing(mesh, group, "the tie")?;
+        let on_housing = |node: &usize| housing.used[*node];
+        let nodes: Vec<usize> = found.nodes.iter().copied().filter(on_housing).collect();
+        if let Some(outer_radius) = bore.outer_radius {
+            check_places(housing, &seat.frame, group, &nodes, outer_radius)?;
+        }
+        check_free(housing, group, &nodes)?;
+        let d = housing.dimension;
+        let components = if bore.fit == Fit::Bonded { d } else { 1 };
+        for &node in &nodes {
+            if let Some(other) = self.of_node[node].replace(place) {
+                return Err(ModelError::Refused(format!(
+                    "{}: node {} is in the bores \"{}\" and \"{group}\": expected bores without a common node, each ring in its own",
+                    housing.path, housing.node_tags[node], bores[other].group
+                )));
+            }
+            let point = housing.coordinates[node];
+            let polar = section_rows(&seat.ring, seat.frame.point(point));
+            let axes = seat.frame.polar_axes(point);
+            for component in 0..components {
+                let along = axes.map(|axis| axis[component]);
+                let row = self.driven.len();
+                self.driven.push(d * node + component);
+                for (dof, moves) in &polar {
+                    let factor = match bore.fit {
+                        Fit::Bonded => (0..3).map(|k| moves[k] * along[k]).sum(),
+                        Fit::Sliding => moves[0],
+                    };
+                    self.entries.push((row, seat.first + dof, factor));
+                }
+            }
+        }
+        Ok(())
+    }
+}
+
+/// Displacement (radial, tangential, axial) of the ring's section at a bore node (m, the ring's frame), for each of the ring's
 /// degrees of freedom that moves it.
-fn section_rows(housing: &HousingModel, ring: &Ring, node: usize) -> Vec<(usize, [f64; 3])> {
-    let [x, y, z] = housing.ring_coordinates(node);
+fn section_rows(ring: &Ring, [x, y, z]: [f64; 3]) -> Vec<(usize, [f64; 3])> {
     let (arm, angle) = (x.hypot(y) - ring.section().radius, y.atan2(x));
     match ring.space_rows_at(angle) {
         None => {
@@ -165,20 +243,27 @@ fn section_rows(housing: &HousingModel, ring: &Ring, node: usize) -> Vec<(usize,
 
 /// The nodes stand at the ring's outer radius. In space the ring's plane cuts the bore: a section that reached beyond it as a
 /// rigid arm would be stiffer than any bore.
-fn check_places(housing: &HousingModel, group: &str, nodes: &[usize], outer_radius: f64) -> Result<(), ModelError> {
+fn check_places(
+    housing: &HousingModel,
+    frame: &RingFrame,
+    group: &str,
+    nodes: &[usize],
+    outer_radius: f64,
+) -> Result<(), ModelError> {
+    let in_ring = |node: usize| frame.point(housing.coordinates[node]);
     let extremes = |of: fn([f64; 3]) -> f64| {
         nodes.iter().fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], &node| {
-            let value = of(housing.ring_coordinates(node));
+            let value = of(in_ring(node));
             [low.min(value), high.max(value)]
         })
     };
     let [nearest, farthest] = extremes(|[x, y, _]| x.hypot(y));
     let [lowest, highest] = extremes(|[_, _, z]| z);
     let tolerance = RADIUS_TOLERANCE * outer_radius;
-    let ([x, y, z], [a, b, c]) = (housing.frame.centre().map(Brief), housing.frame.axis());
+    let ([x, y, z], [a, b, c]) = (frame.centre().map(Brief), frame.axis());
     if outer_radius - nearest > tolerance || farthest - outer_radius > tolerance {
         let at_ring = nodes.iter().filter(|&&node| {
-            let [x, y, _] = housing.ring_coordinates(node);
+            let [x, y, _] = in_ring(node);
             (x.hypot(y) - outer_radius).abs() <= tolerance
         });
         let share = at_ring.count() as f64 / nodes.len() as f64;
@@ -219,18 +304,16 @@ fn check_free(housing: &HousingModel, group: &str, nodes: &[usize]) -> Result<()
     Ok(())
 }
 
-/// Identity but for the bore nodes, whose displacements become (radial, tangential, axial).
-fn polar_rotation(housing: &HousingModel, nodes: &[usize]) -> SparseMatrix {
+/// Identity but for nodes with a frame of a ring, whose displacements become (radial, tangential, axial) there.
+fn polar_rotation<'f>(housing: &HousingModel, frame: impl Fn(usize) -> Option<&'f RingFrame>) -> SparseMatrix {
     let d = housing.dimension;
-    let mut polar = vec![false; housing.coordinates.len()];
-    nodes.iter().for_each(|&node| polar[node] = true);
     let mut rotation = TripletBuilder::new(housing.dof(), housing.dof());
     for (node, &point) in housing.coordinates.iter().enumerate() {
-        if !polar[node] {
+        let Some(frame) = frame(node) else {
             (d * node..d * node + d).for_each(|dof| rotation.add(dof, dof, 1.0));
             continue;
-        }
-        let axes = housing.frame.polar_axes(point);
+        };
+        let axes = frame.polar_axes(point);
         for (k, axis) in axes.iter().enumerate().take(d) {
             for (i, &component) in axis.iter().enumerate().take(d) {
                 rotation.add(d * node + i, d * node + k, component);

@@ -6,18 +6,17 @@ use super::super::{
     Bearing, Case, ContactStiffness, Defect, DentDefect, DentProfile, FlatDefect, MeasuredDefect, Ring, Slip,
 };
 use super::range::{
-    self, ABOVE_ZERO, DEGREES, RATIO, ZERO_OR_MORE, above, below, count, kept, known_isotropic, needs, not_beside,
-    not_empty, repeated,
+    self, ABOVE_ZERO, DEGREES, RATIO, ZERO_OR_MORE, above, below, count, kept, known_isotropic, not_beside, not_empty,
+    repeated,
 };
 use super::rule::{BrokenRule, Rule, short};
 use crate::bearing::Race;
 use crate::system::{BallsInertia, Formulation};
 
-pub(super) fn bearing(case: &Case, bearing: &Bearing) -> Result<(), BrokenRule> {
-    needs("bearing", "[ring]", case.ring.is_some())?;
+pub(super) fn bearing(case: &Case, bearing: &Bearing, ring: &Ring) -> Result<(), BrokenRule> {
     count("bearing.balls", bearing.balls, 3..=40, "3 to 40 balls")?;
     ball(case, bearing)?;
-    races(case, bearing)?;
+    races(case, bearing, ring)?;
     room(bearing)?;
     DEGREES.check("bearing.first_ball_deg", bearing.first_ball_deg)?;
     ZERO_OR_MORE.check("bearing.contact_damping", bearing.contact_damping)?;
@@ -34,7 +33,8 @@ pub(super) fn bearing(case: &Case, bearing: &Bearing) -> Result<(), BrokenRule> 
         }
     }
     irregular(bearing)?;
-    slip(&bearing.slip)
+    slip(&bearing.slip)?;
+    defects(bearing)
 }
 
 /// Waves of the races and differences of the balls.
@@ -92,14 +92,14 @@ fn ball(case: &Case, bearing: &Bearing) -> Result<(), BrokenRule> {
     Ok(())
 }
 
-fn races(case: &Case, bearing: &Bearing) -> Result<(), BrokenRule> {
+fn races(case: &Case, bearing: &Bearing, ring: &Ring) -> Result<(), BrokenRule> {
     let races = &bearing.race_material;
     known_isotropic(case, "bearing.race_material", &races.inner)?;
     known_isotropic(case, "bearing.race_material", &races.outer)?;
     let (inner, ball) = (bearing.inner_race_radius, bearing.ball_radius);
     ABOVE_ZERO.check("bearing.inner_race_radius", inner)?;
     above("bearing.outer_race_radius", bearing.outer_race_radius, "`bearing.inner_race_radius`", inner)?;
-    case.ring.iter().try_for_each(|ring| race_in_ring(bearing, ring))?;
+    race_in_ring(bearing, ring)?;
     for (key, groove) in [
         ("bearing.inner_groove_radius", bearing.inner_groove_radius),
         ("bearing.outer_groove_radius", bearing.outer_groove_radius),
@@ -157,7 +157,7 @@ fn room(bearing: &Bearing) -> Result<(), BrokenRule> {
     })
 }
 
-pub(super) fn defects(bearing: &Bearing) -> Result<(), BrokenRule> {
+fn defects(bearing: &Bearing) -> Result<(), BrokenRule> {
     let mut with_flat = Vec::new();
     for (index, defect) in bearing.defects.iter().enumerate() {
         let at = |key: &str| format!("bearing.defects[{index}].{key}");

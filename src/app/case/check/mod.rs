@@ -22,16 +22,20 @@ impl Case {
     /// # Errors
     /// The first [`BrokenRule`], in the order of the tables in the file's documentation.
     pub(crate) fn validate(&self) -> Result<(), BrokenRule> {
-        if self.housing.is_none() && self.ring.is_none() {
+        if self.housing.is_none() && !self.has_rings() {
             return Err(Rule::nothing_to_model().at("housing"));
         }
         report::title(&self.title)?;
         self.report.iter().try_for_each(report)?;
         structure::materials(self)?;
         structure::housing(self)?;
-        self.ring.iter().try_for_each(|ring| structure::ring(self, ring))?;
-        self.bearing.iter().try_for_each(|bearing| contact::bearing(self, bearing))?;
-        self.bearing.iter().try_for_each(contact::defects)?;
+        self.check_bearings()?;
+        for seat in self.seats() {
+            let own = |found: Result<(), BrokenRule>| found.map_err(|broken| seat.broken(broken));
+            own(structure::ring(self, &seat))?;
+            own(seat.bearing.map_or(Ok(()), |bearing| contact::bearing(self, bearing, seat.ring)))?;
+        }
+        range::needs("bearing", "[ring]", self.bearing.is_none() || self.has_rings())?;
         self.shaft.iter().try_for_each(time::shaft)?;
         self.damping.iter().try_for_each(time::damping)?;
         self.speed.iter().try_for_each(time::speed)?;
@@ -64,8 +68,10 @@ impl Case {
                 link.between.iter().for_each(|group| name(format!("housing.links[{index}].between"), group));
             }
         }
-        if let Some(tie) = self.ring.as_ref().and_then(|ring| ring.tie.as_ref()) {
-            name("ring.tie.group".to_owned(), &tie.group);
+        for seat in self.seats() {
+            if let Some(tie) = &seat.ring.tie {
+                name(seat.key("ring.tie.group"), &tie.group);
+            }
         }
         if let Interface::Group(group) = &self.condense.interface {
             name("condense.interface.group".to_owned(), group);

@@ -3,7 +3,7 @@
 use super::super as case;
 use super::super::other_size;
 use super::super::tree::quoted;
-use super::super::{Axis, Bond, Case, Hold, Housing, HousingSource, Material, Ring, RingSupport};
+use super::super::{Axis, Bond, Case, Hold, Housing, HousingSource, Material, Ring, RingSupport, Seat};
 use super::range::{
     self, ABOVE_ZERO, DEGREES, DENSITY, LOSS_FACTOR, MODULUS, POISSON, SHARE, ZERO_OR_MORE, above, below, count,
     direction, each_once, kept, known_isotropic, known_material, needs, not_beside, not_empty,
@@ -53,7 +53,7 @@ pub(super) fn materials(case: &Case) -> Result<(), BrokenRule> {
 
 pub(super) fn housing(case: &Case) -> Result<(), BrokenRule> {
     let Some(housing) = case.meshed_housing() else {
-        return needs("housing.superelement", "[ring]", case.superelement().is_none() || case.ring.is_some());
+        return needs("housing.superelement", "[ring]", case.superelement().is_none() || case.has_rings());
     };
     ABOVE_ZERO.check("housing.plane.thickness", housing.plane.map(|plane| plane.thickness))?;
     not_empty("housing.parts", housing.parts.len(), "at least one part")?;
@@ -126,9 +126,10 @@ fn no_z() -> Rule {
     Rule::found("a component z", "x and y only in a plane model")
 }
 
-pub(super) fn ring(case: &Case, ring: &Ring) -> Result<(), BrokenRule> {
+pub(super) fn ring(case: &Case, seat: &Seat<'_>) -> Result<(), BrokenRule> {
+    let ring = seat.ring;
     count("ring.nodes", ring.nodes, 8..=2000, "8 to 2000 nodes")?;
-    sections(case, ring)?;
+    sections(case, seat)?;
     for (index, support) in ring.supports.iter().enumerate() {
         // whether a superelement is plane is told by its file
         let plane =
@@ -138,7 +139,8 @@ pub(super) fn ring(case: &Case, ring: &Ring) -> Result<(), BrokenRule> {
     tie(case, ring)
 }
 
-fn sections(case: &Case, ring: &Ring) -> Result<(), BrokenRule> {
+fn sections(case: &Case, seat: &Seat<'_>) -> Result<(), BrokenRule> {
+    let ring = seat.ring;
     not_empty("ring.sections", ring.sections.len(), "at least one section")?;
     for (index, section) in ring.sections.iter().enumerate() {
         let at = |key: &str| format!("ring.sections[{index}].{key}");
@@ -156,7 +158,7 @@ fn sections(case: &Case, ring: &Ring) -> Result<(), BrokenRule> {
         )?;
         SHARE.check(at("shear_coefficient"), section.shear_coefficient)?;
         if let Some(outer) = ring.outer_radius {
-            let name = case.bearing.as_ref().and_then(|bearing| bearing.name.as_deref());
+            let name = seat.bearing.and_then(|bearing| bearing.name.as_deref());
             let bearing = name.filter(|_| section.radius >= outer).and_then(CatalogueBearing::named);
             if let Some(rule) = bearing.and_then(|own| other_size(own, "`ring.outer_radius`", [outer; 2], "it")) {
                 return Err(rule.at("bearing.name"));

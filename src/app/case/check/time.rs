@@ -103,7 +103,7 @@ pub(super) fn sensors(case: &Case) -> Result<(), BrokenRule> {
             SensorSpot::Group(_) => ("group", mesh, meshed),
             SensorSpot::Node(_) => ("node", mesh, meshed),
             SensorSpot::Point(_) => ("point", mesh, meshed),
-            SensorSpot::RingDeg(_) => ("ring_deg", "[ring]", case.ring.is_some()),
+            SensorSpot::RingDeg(_) => ("ring_deg", "[ring]", case.has_rings()),
             SensorSpot::Recovered(_) => ("recovered", "`housing.superelement`", case.superelement().is_some()),
         };
         needs(at(key), other, present)?;

@@ -18,7 +18,7 @@ use crate::report::mass_in_words;
 /// [`CliError`] that says what the case has instead.
 pub(super) fn can_condense(case: &Case, to: ExportFormat) -> Result<(), CliError> {
     let to = word(to);
-    let tied = case.ring.as_ref().is_some_and(|ring| ring.tie.is_some());
+    let tied = case.seats().iter().any(|seat| seat.ring.tie.is_some());
     let found = if case.superelement().is_some() {
         "a superelement, which is condensed already"
     } else if case.meshed_housing().is_none() {

@@ -69,7 +69,7 @@ pub(super) fn left_out(case: &Case) -> Vec<String> {
     let springs = housing.supports.iter().any(|support| matches!(support.hold, crate::app::case::Hold::Spring(..)));
     let range = matches!(case.modes.extent, ModeRange::UpToHz(_) | ModeRange::BandHz(_));
     let found = [
-        (case.ring.is_some(), "the ring with its bearing; its bore is free"),
+        (case.has_rings(), "the ring with its bearing; its bore is free"),
         (springs, "supports by springs"),
         (!housing.masses.is_empty(), "housing.masses"),
         (!housing.links.is_empty(), "housing.links"),

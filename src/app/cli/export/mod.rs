@@ -93,7 +93,7 @@ impl ExportFormat {
     fn files(self, case: &Case) -> Vec<&'static str> {
         let of_bodies = |housing, ring| {
             let housing = case.meshed_housing().map(|_| housing);
-            housing.into_iter().chain(case.ring.as_ref().map(|_| ring)).collect()
+            housing.into_iter().chain(case.has_rings().then_some(ring)).collect()
         };
         match self {
             Self::Mtx => vec!["stiffness.mtx", "mass.mtx", "dofs.csv"],

@@ -75,7 +75,7 @@ impl Source {
             read_modes_npz(&path).map_err(|error| CliError::input(error.to_string()).with_help(MODES_AGAIN))?;
         let housing = self.case.meshed_housing();
         let mesh = housing.map(|housing| read_mesh(&self.case, housing, &Unwatched)).transpose()?;
-        let ring_nodes = self.case.ring.as_ref().map_or(0, |ring| ring.nodes);
+        let ring_nodes = self.case.seats().iter().map(|seat| seat.ring.nodes).sum();
         check_fit(&path, mesh.as_ref(), ring_nodes, &shapes)?;
         Ok((mesh, shapes))
     }

@@ -161,7 +161,7 @@ pub fn compute_condense(
                 size_study(&stage.condensed.substructure, modes, &found.frequencies_hz, rigid.count(), watch)?;
         }
         full = Some(found);
-        if stage.boundary.ring().is_some() {
+        if stage.boundary.rings().is_some() {
             price = Some(tie_price(case, &stage.housing, TIE_PRICE_MODES, watch)?);
         }
     }
@@ -255,7 +255,7 @@ fn name_mechanisms(checks: &mut [Check], housing: &AssembledHousing, boundary: &
     let Some(held) = checks.iter_mut().find(|check| check.name == "held" && !check.ok()) else {
         return Ok(());
     };
-    let bore = boundary.ring().map_or(Bore::Empty, |(ring, tie)| Bore::Ring(tie, ring));
+    let bore = boundary.rings().map_or(Bore::Empty, |(rings, tie)| Bore::Rings(tie, rings));
     let found = Mechanisms::find_in(&housing.mesh, &housing.model, &bore)?;
     for sentence in found.map_or(Vec::new(), |found| found.sentences()) {
         held.what = format!("{}; {sentence}", held.what);

@@ -91,7 +91,13 @@ fn what(result: &CondenseResult) -> Section {
     let stage = &result.stage;
     let element = &stage.condensed.superelement;
     let interface = match &stage.boundary {
-        Boundary::Ring(bodies) => format!("the {} nodes of the ring, through its tie", bodies.0.nodes()),
+        Boundary::Rings(bodies) => match bodies.0.seats() {
+            [only] => format!("the {} nodes of the ring, through its tie", only.ring.nodes()),
+            several => {
+                let nodes = several.iter().map(|seat| format!("{} of {}", seat.ring.nodes(), seat.label));
+                format!("the nodes of the rings, through their ties: {}", nodes.collect::<Vec<_>>().join(", "))
+            }
+        },
         Boundary::Nodes(nodes) => {
             let count = nodes.coordinates.iter().map(|at| at.0);
             let count = count.collect::<std::collections::BTreeSet<_>>().len();

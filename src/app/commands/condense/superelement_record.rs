@@ -82,7 +82,7 @@ impl Coordinates<'_> {
             band_hz: Some(basis_choice(case).band_hz),
             complete_hz: complete_hz(&stage.condensed.basis),
             outer_radius: match &stage.boundary {
-                Boundary::Ring(_) => case.ring.as_ref().and_then(|ring| ring.outer_radius),
+                Boundary::Rings(_) => case.ring.as_ref().and_then(|ring| ring.outer_radius),
                 _ => None,
             },
             weight: Some(self.columns(weight(stage))),
@@ -118,7 +118,7 @@ impl Coordinates<'_> {
             for axis in 0..d {
                 let mut direction = [0.0; 3];
                 direction[axis] = 1.0;
-                let entries = match stage.boundary.ring() {
+                let entries = match stage.boundary.rings() {
                     Some((_, tie)) => tie.displacement_row(&housing.model, node, direction),
                     None => housing.model.displacement_row(node, direction),
                 };
@@ -149,7 +149,7 @@ fn weight(stage: &CondensedHousing) -> DenseMatrix {
     let d = model.dimension();
     let falls = DenseMatrix::from_fn(model.dof(), 3, |dof, axis| f64::from(u8::from(dof % d == axis)));
     let nodal = sparse_times_dense(&stage.housing.matrices.mass, &falls);
-    let turned = match stage.boundary.ring().and_then(|(_, tie)| tie.rotation()) {
+    let turned = match stage.boundary.rings().and_then(|(_, tie)| tie.rotation()) {
         Some(rotation) => transpose_times_dense(rotation, &nodal),
         None => nodal,
     };

@@ -6,7 +6,7 @@ use crate::app::scene::condensed::basis_choice;
 use crate::app::scene::damping::{damping, mass_damping, viscous_matrix};
 use crate::app::scene::places::{Place, Spot};
 use crate::app::scene::{CondensedHousing, ImportedHousing};
-use crate::fe::model::Ring;
+use crate::fe::model::Rings;
 use crate::fe::reduction::frf::{
     FrequencyGrid, FrequencyResponse, FrfPaths, ModalBasis, ModalDamping, ModalSuperposition, PathShares,
     ReducedSystem, Resonance, direct_response, frequency_list,
@@ -38,8 +38,8 @@ const NO_MORE: ModalDamping = ModalDamping::Uniform(0.0);
 pub enum FrfHousing {
     /// Condensed from a mesh.
     Mesh(Box<CondensedHousing>),
-    /// From a file, with the ring that fits it. What it lacks is not known.
-    File(Box<(ImportedHousing, Ring)>),
+    /// From a file, with the rings that fit it. What it lacks is not known.
+    File(Box<(ImportedHousing, Rings)>),
 }
 
 impl FrfHousing {
@@ -143,8 +143,7 @@ impl<'c> ReducedPaths<'c> {
         let band_hz = frf.band_hz.unwrap_or(case.band_or_default());
         if let Some(path) = case.superelement() {
             watch.stage("read");
-            let ring = case.ring.as_ref().ok_or(ComputeError::NothingToCondense)?;
-            let file = ImportedHousing::read(case, ring, path)?;
+            let file = ImportedHousing::read(case, path)?;
             file.0.accept()?;
             return Self::of(case, frf, FrfHousing::File(Box::new(file)), band_hz);
         }

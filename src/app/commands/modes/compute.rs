@@ -8,7 +8,7 @@ use crate::app::commands::parts::ExpectedMode;
 use crate::app::error::ComputeError;
 use crate::app::scene::doubts::accept_contacts;
 use crate::app::scene::structure::needed_modes;
-use crate::app::scene::{AssembledHousing, CoupledStructure, RingInHousing, bearing_setup, doubts, race_contacts};
+use crate::app::scene::{AssembledHousing, CoupledStructure, RingsInHousing, bearing_setup, doubts, race_contacts};
 use crate::fe::mesh::Mesh;
 use crate::fe::modal::{FullModes, ModalSurvey, ModeRange};
 use crate::fe::model::HousingModel;
@@ -43,8 +43,8 @@ pub struct ModesResult {
     pub variants: Vec<Reading>,
     /// Modes without contact in full, with their proof.
     pub survey: ModalSurvey,
-    /// A ring, and the housing around it.
-    pub bodies: Option<RingInHousing>,
+    /// Rings, and the housing around them.
+    pub bodies: Option<RingsInHousing>,
     /// Number of vectors of the condensed housing's interior; `None` without loaded modes: nothing is condensed for others.
     pub fixed_interface_modes: Option<usize>,
     /// Mesh and model of a housing alone.
@@ -82,10 +82,10 @@ impl ModesResult {
     /// Mesh and model of the housing, if there is one.
     pub(crate) fn mesh_and_model(&self) -> Option<(&Mesh, &HousingModel)> {
         let alone = self.housing.as_ref().map(|(mesh, model)| (mesh, model));
-        alone.or(self.bodies.as_ref().and_then(RingInHousing::mesh_and_model))
+        alone.or(self.bodies.as_ref().and_then(RingsInHousing::mesh_and_model))
     }
 
-    /// Frequencies and shapes as other programs read them; the ring's nodes stand after those of the mesh.
+    /// Frequencies and shapes as other programs read them; the rings' nodes stand after those of the mesh.
     pub(crate) fn mode_shapes(&self) -> ModeShapes {
         mode_shapes(&self.survey, self.mesh_and_model())
     }
@@ -138,15 +138,15 @@ pub fn compute_modes(case: &Case, watch: &impl Watch) -> Result<ModesResult, Com
 }
 
 fn own_modes(case: &Case, watch: &impl Watch) -> Result<ModesResult, ComputeError> {
-    let Some(asked) = &case.ring else {
+    if !case.has_rings() {
         return housing_alone(case, watch);
-    };
+    }
     let (mut loaded, mut statics, mut loaded_pass, mut fixed_interface_modes) = (None, None, None, None);
     let setup = linearised_setup(case)?;
     let bodies = match &setup {
-        None => RingInHousing::build(case, asked, watch)?,
+        None => RingsInHousing::build(case, watch)?,
         Some(setup) => {
-            let stage = CoupledStructure::around_ring(case, asked, needed_modes(case), watch)?;
+            let stage = CoupledStructure::around_rings(case, needed_modes(case), watch)?;
             let start = start_time(case);
             watch.stage("linearise");
             loaded = Some(loaded_modes(case, &stage, setup)?);
@@ -209,13 +209,13 @@ fn start_time(case: &Case) -> f64 {
 
 /// Frequencies of a variant; `None` without a ring.
 fn variant_reading(case: &Case) -> Result<Option<Reading>, ComputeError> {
-    let Some(asked) = &case.ring else {
+    if !case.has_rings() {
         return Ok(None);
-    };
+    }
     let (bodies, loaded) = match linearised_setup(case)? {
-        None => (RingInHousing::build(case, asked, &Unwatched)?, None),
+        None => (RingsInHousing::build(case, &Unwatched)?, None),
         Some(setup) => {
-            let stage = CoupledStructure::around_ring(case, asked, needed_modes(case), &Unwatched)?;
+            let stage = CoupledStructure::around_rings(case, needed_modes(case), &Unwatched)?;
             let loaded = loaded_modes(case, &stage, &setup)?;
             (stage.bodies, Some(loaded))
         }
@@ -235,7 +235,7 @@ fn loaded_modes(case: &Case, stage: &CoupledStructure, setup: &BearingSetup) -> 
     Ok(LoadedModes::at(&stage.structure, &stage.modes, setup, &equilibrium)?)
 }
 
-/// Frequencies and shapes of a survey along the mesh's axes: all nodes of the mesh, then those of the ring.
+/// Frequencies and shapes of a survey along the mesh's axes: all nodes of the mesh, then those of the rings.
 fn mode_shapes(survey: &ModalSurvey, housing: Option<(&Mesh, &HousingModel)>) -> ModeShapes {
     let mut points = Vec::new();
     let mut shapes = vec![Vec::new(); survey.basis.count()];
@@ -249,16 +249,13 @@ fn mode_shapes(survey: &ModalSurvey, housing: Option<(&Mesh, &HousingModel)>) ->
             }
         }
     }
-    if let Some(ring) = &survey.ring {
+    for ring in &survey.rings {
         points.extend(&ring.points);
         for (shape, moved) in shapes.iter_mut().zip(&ring.displacements) {
             shape.extend(moved.as_flattened());
         }
     }
-    let node_tags = match (&survey.ring, housing) {
-        (None, Some((mesh, _))) => Some(mesh.node_tags.clone()),
-        _ => None,
-    };
+    let node_tags = housing.filter(|_| survey.rings.is_empty()).map(|(mesh, _)| mesh.node_tags.clone());
     ModeShapes {
         frequencies_hz: survey.basis.frequencies_hz.clone(),
         node_tags,
@@ -274,8 +271,8 @@ fn mode_shapes(survey: &ModalSurvey, housing: Option<(&Mesh, &HousingModel)>) ->
 /// [`ComputeError`] of the stages that it goes through.
 pub(crate) fn compute_mode_shapes(case: &Case, watch: &impl Watch) -> Result<(Option<Mesh>, ModeShapes), ComputeError> {
     let extent = case.modes.extent;
-    if let Some(asked) = &case.ring {
-        let bodies = RingInHousing::build(case, asked, watch)?;
+    if case.has_rings() {
+        let bodies = RingsInHousing::build(case, watch)?;
         let survey = bodies.survey(extent, watch)?;
         let shapes = mode_shapes(&survey, bodies.mesh_and_model());
         return Ok((bodies.housing.map(|housing| housing.mesh), shapes));

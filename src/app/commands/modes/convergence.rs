@@ -218,7 +218,7 @@ fn notes(case: &Case, sequence: &MeshSequence, modes: &[ModeOnMeshes]) -> Vec<St
     if let Some(names) = named(&|mode| mode.frequencies_hz.iter().any(Option::is_none)) {
         notes.push(format!("Not recognised by its shape on every mesh: mode {names}."));
     }
-    if case.ring.is_some() {
+    if case.has_rings() {
         notes.push("The ring keeps its nodes on all meshes: its own discretisation is not in the error.".to_owned());
     }
     notes

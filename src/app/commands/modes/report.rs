@@ -79,7 +79,7 @@ pub(crate) fn modes_report(case: &Case, result: &ModesResult, command: &str) -> 
 /// The case in words.
 fn inputs(case: &Case, result: &ModesResult) -> Section {
     // the mass of housing and ring together has a section of its own
-    let mass = result.survey.mass.as_ref().filter(|_| case.ring.is_none()).map(|mass| mass.mass);
+    let mass = result.survey.mass.as_ref().filter(|_| !case.has_rings()).map(|mass| mass.mass);
     let size = result.mesh_and_model().map(|(mesh, model)| parts::HousingSize::of(mesh, model, mass));
     Section::new("Inputs").facts(parts::inputs(case, Purpose::Modes, size.as_ref()))
 }

@@ -32,27 +32,26 @@ pub(crate) fn shape_view(result: &ModesResult) -> ModeShapeView {
     if let Some((mesh, model)) = result.mesh_and_model() {
         add_surface(&mut view, mesh, model);
     }
-    let first = view.points.len();
-    if let Some(ring) = &survey.ring {
+    let no_surface = view.triangles.is_empty();
+    for ring in &survey.rings {
+        let first = view.points.len();
         view.points.extend(&ring.points);
-        if view.triangles.is_empty() {
-            add_band(&mut view, ring);
-        } else {
-            view.lines.push(ShapeLine {
-                name: "ring".to_owned(),
-                points: (first..first + ring.points.len()).collect(),
-                closed: true,
-            });
-        }
+        view.lines.push(ShapeLine {
+            name: "ring".to_owned(),
+            points: (first..first + ring.points.len()).collect(),
+            closed: true,
+        });
+    }
+    if no_surface {
+        view.lines.clear();
+        survey.rings.iter().for_each(|ring| add_band(&mut view, ring));
     }
     let (shapes, kinds) = (result.mode_shapes().shapes, kinds(survey));
     for mode in shown_order(survey) {
         let mut displacement = shapes[mode].as_chunks().0.to_vec();
-        if let Some(ring) = &survey.ring {
+        if no_surface {
             // both edges of a band move with their node
-            let nodes = ring.points.len();
-            let edges = view.points.len() - first - nodes;
-            displacement.extend((0..edges).map(|point| ring.displacements[mode][point % nodes]));
+            displacement.extend(survey.rings.iter().flat_map(|ring| [&ring.displacements[mode]; 2]).flatten());
         }
         view.modes.push(ShapeMode {
             label: (mode + 1).to_string(),

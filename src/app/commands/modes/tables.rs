@@ -177,7 +177,8 @@ pub(crate) fn energy_tables(survey: &ModalSurvey) -> Vec<Table> {
         parts.iter().copied().chain(ring).chain(attached.iter().copied()).chain(groups).collect()
     };
     let names = |attached: &[String]| -> Vec<String> {
-        let ring = survey.ring.is_some().then(|| "the ring".to_owned());
+        let name = if survey.rings.len() > 1 { "the rings" } else { "the ring" };
+        let ring = (!survey.rings.is_empty()).then(|| name.to_owned());
         let groups = groups.iter().map(|&group| format!("in {}", found.groups[group]));
         found.parts.iter().chain(&ring).chain(attached).cloned().chain(groups).collect()
     };

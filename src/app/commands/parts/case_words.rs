@@ -3,7 +3,7 @@
 use super::bearing_words;
 use super::phrases::{and, direction_words, length, listed};
 use crate::app::case::{
-    Axis, Bond, Case, Damping, Hold, Housing, Material, Purpose, Push, ReportDetails, Ring, Sensor, SensorSpot,
+    Axis, Bond, Case, Damping, Hold, Housing, Material, Purpose, Push, ReportDetails, Seat, Sensor, SensorSpot,
 };
 use crate::app::commands::analyze::report::capital;
 use crate::app::scene::AssembledHousing;
@@ -45,7 +45,7 @@ pub(crate) fn inputs(case: &Case, purpose: Purpose, size: Option<&HousingSize>) 
         }
         (None, None) => {}
     }
-    facts.extend(case.ring.iter().flat_map(|ring| ring_facts(case, ring)));
+    facts.extend(case.seats().iter().flat_map(|seat| ring_facts(case, seat)));
     let moves = matches!(purpose, Purpose::Run | Purpose::Chart);
     if moves || case.modes.linearise == crate::app::case::Linearise::Static && purpose == Purpose::Modes {
         facts.extend(bearing_words::facts(case, moves));
@@ -120,7 +120,9 @@ fn housing_facts(case: &Case, housing: &Housing, size: Option<&HousingSize>) -> 
     facts
 }
 
-fn ring_facts(case: &Case, ring: &Ring) -> Vec<Fact> {
+fn ring_facts(case: &Case, seat: &Seat<'_>) -> Vec<Fact> {
+    let ring = seat.ring;
+    let named = |what: &str| format!("{what} {}", seat.label).trim_end().to_owned();
     let sections = ring.sections.iter().map(|section| {
         format!(
             "{}, area {} mm\u{b2}, second moment of area {} mm\u{2074}, radius of its centroid {}",
@@ -143,22 +145,22 @@ fn ring_facts(case: &Case, ring: &Ring) -> Vec<Fact> {
     let kind =
         format!("{} {element}, {} shear, {} rotary inertia", ring.nodes, with(ring.shear), with(ring.rotary_inertia));
     let sections: Vec<String> = sections.collect();
-    let mut facts = vec![Fact::new("Outer ring", sections.join("; ") + together).note(kind)];
+    let mut facts = vec![Fact::new(named("Outer ring"), sections.join("; ") + together).note(kind)];
     let materials: std::collections::BTreeSet<&str> = ring.sections.iter().map(|s| s.material.as_str()).collect();
-    facts.extend(listed("Materials of the ring", materials.into_iter().map(|name| material_words(case, name))));
+    facts.extend(listed(&named("Materials of the ring"), materials.into_iter().map(|name| material_words(case, name))));
     facts.extend(ring.tie.as_ref().map(|tie| {
         let fit = match tie.fit {
             Fit::Bonded => "bonded in every direction",
             Fit::Sliding => "free to slide in the bore",
         };
-        Fact::new("Fit of the ring", format!("in the bore (group \"{}\"), {fit}", tie.group))
+        Fact::new(named("Fit of the ring"), format!("in the bore (group \"{}\"), {fit}", tie.group))
     }));
     let supports = ring.supports.iter().map(|support| {
         let stiffness = SpringStiffness::from(support.spring);
         let springs = springs_words(&stiffness, support.per == SpringShare::PerNode);
         format!("{springs}, from {}\u{b0} to {}\u{b0}", given(support.from_deg), given(support.to_deg))
     });
-    facts.extend(listed("Supports of the ring", supports));
+    facts.extend(listed(&named("Supports of the ring"), supports));
     facts
 }
 
@@ -245,17 +247,25 @@ fn sensor_words(sensor: &Sensor) -> String {
         SensorSpot::Recovered(_) => String::new(),
         _ => format!(", {}", direction_words(&sensor.direction)),
     };
-    format!("{}: {}{direction}", sensor.name, spot_words(&sensor.spot))
+    format!("{}: {}{direction}", sensor.name, spot_words(&sensor.spot, sensor.bearing.as_deref()))
 }
 
 fn push_words(push: &Push) -> String {
-    format!("1 N at {}: {}, {}", push.name, spot_words(&push.spot), direction_words(&push.direction))
+    format!(
+        "1 N at {}: {}, {}",
+        push.name,
+        spot_words(&push.spot, push.bearing.as_deref()),
+        direction_words(&push.direction)
+    )
 }
 
-fn spot_words(spot: &SensorSpot) -> String {
+fn spot_words(spot: &SensorSpot, bearing: Option<&str>) -> String {
     match spot {
         SensorSpot::Group(group) => format!("mean over {group}"),
-        SensorSpot::RingDeg(degrees) => format!("on the ring at {}\u{b0}", given(*degrees)),
+        SensorSpot::RingDeg(degrees) => {
+            let of = bearing.map_or_else(String::new, |label| format!(" of bearing {label}"));
+            format!("on the ring{of} at {}\u{b0}", given(*degrees))
+        }
         SensorSpot::Node(tag) => format!("node {tag}"),
         SensorSpot::Point(point) => {
             let [x, y, z] = point.map(|metres| given(1e3 * metres));

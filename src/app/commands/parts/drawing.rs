@@ -1,11 +1,11 @@
 //! The picture of the model: mesh, ring, supports, balls, dents, sensors.
 
 use crate::app::case::{Case, SensorSpot};
-use crate::app::scene::RingInHousing;
+use crate::app::scene::RingsInHousing;
 use crate::bearing::Race;
 use crate::bearing::defect::{DentShape, RaceDefect};
 use crate::fe::mesh::Mesh;
-use crate::fe::model::HousingModel;
+use crate::fe::model::{HousingModel, RingSeat};
 use crate::report::{Circle, Dent, Drawing, Point, Ring, Sensor, Spring};
 use crate::system::BearingSetup;
 use nalgebra::Vector3;
@@ -17,20 +17,15 @@ use std::f64::consts::PI;
 const SHARP: f64 = 0.45;
 
 /// Draws ring and housing, and the bearing in it if there is one.
-pub(crate) fn draw(case: &Case, bodies: &RingInHousing, setup: Option<&BearingSetup>) -> Drawing {
-    let ring = &bodies.ring;
-    let centre = Point { x: 0.0, y: 0.0 };
-    let radius = ring.section().radius;
+pub(crate) fn draw(case: &Case, bodies: &RingsInHousing, setup: Option<&BearingSetup>) -> Drawing {
+    let several = bodies.rings.seats().len() > 1;
+    let plane = if several { "the first bearing" } else { "the bearing" };
     let mut drawing = Drawing {
         title: "Model".to_owned(),
-        caption: Some(
-            "The model in the plane of the bearing, to scale; springs and sensors are symbols. Defects are red."
-                .to_owned(),
-        ),
-        ring: Some(Ring {
-            circle: Circle { centre, radius },
-            nodes: (0..ring.nodes()).map(|node| centre.polar(radius, ring.node_angle(node))).collect(),
-        }),
+        caption: Some(format!(
+            "The model in the plane of {plane}, to scale; springs and sensors are symbols. Defects are red."
+        )),
+        rings: bodies.rings.seats().iter().map(|seat| ring_of(bodies, seat)).collect(),
         ..Drawing::default()
     };
     if let Some(housing) = &bodies.housing {
@@ -42,6 +37,22 @@ pub(crate) fn draw(case: &Case, bodies: &RingInHousing, setup: Option<&BearingSe
     }
     add_sensors(&mut drawing, case, bodies);
     drawing
+}
+
+/// Centre of a ring in the plane of the first.
+fn centre_of(bodies: &RingsInHousing, seat: &RingSeat) -> Point {
+    let [x, y, _] = bodies.frame().point(seat.frame.centre());
+    Point { x, y }
+}
+
+/// A ring in the plane of the first.
+fn ring_of(bodies: &RingsInHousing, seat: &RingSeat) -> Ring {
+    let (centre, radius) = (centre_of(bodies, seat), seat.ring.section().radius);
+    let nodes = (0..seat.ring.nodes()).map(|node| {
+        let [x, y, _] = bodies.frame().point(seat.frame.point_to_mesh(seat.ring.node_position(node)));
+        Point { x, y }
+    });
+    Ring { circle: Circle { centre, radius }, nodes: nodes.collect() }
 }
 
 fn point(model: &HousingModel, node: usize) -> Point {
@@ -110,16 +121,18 @@ fn feature_edges(mesh: &Mesh) -> Vec<Vec<usize>> {
     edges.map(|(edge, _)| edge).collect()
 }
 
-fn add_ring_springs(drawing: &mut Drawing, case: &Case, bodies: &RingInHousing) {
-    let ring = &bodies.ring;
-    for support in case.ring.iter().flat_map(|ring| &ring.supports) {
-        let (from, to) = (support.from_deg, support.to_deg);
-        for node in 0..ring.nodes() {
-            let angle = ring.node_angle(node);
-            let past = (angle.to_degrees() - from + 1e-6).rem_euclid(360.0) - 1e-6;
-            if past < to - from - 1e-6 {
-                let radius = ring.section().radius + support.offset;
-                drawing.springs.push(Spring { at: Point { x: 0.0, y: 0.0 }.polar(radius, angle), towards_rad: angle });
+fn add_ring_springs(drawing: &mut Drawing, case: &Case, bodies: &RingsInHousing) {
+    for (seat, asked) in bodies.rings.seats().iter().zip(case.seats()) {
+        let (ring, centre) = (&seat.ring, centre_of(bodies, seat));
+        for support in &asked.ring.supports {
+            let (from, to) = (support.from_deg, support.to_deg);
+            for node in 0..ring.nodes() {
+                let angle = ring.node_angle(node);
+                let past = (angle.to_degrees() - from + 1e-6).rem_euclid(360.0) - 1e-6;
+                if past < to - from - 1e-6 {
+                    let radius = ring.section().radius + support.offset;
+                    drawing.springs.push(Spring { at: centre.polar(radius, angle), towards_rad: angle });
+                }
             }
         }
     }
@@ -163,11 +176,15 @@ fn add_bearing(drawing: &mut Drawing, case: &Case, setup: &BearingSetup) {
     }
 }
 
-fn add_sensors(drawing: &mut Drawing, case: &Case, bodies: &RingInHousing) {
-    let origin = Point { x: 0.0, y: 0.0 };
+fn add_sensors(drawing: &mut Drawing, case: &Case, bodies: &RingsInHousing) {
+    let seats = bodies.rings.seats();
     for sensor in &case.sensors {
         let at = match (&sensor.spot, &bodies.housing) {
-            (SensorSpot::RingDeg(degrees), _) => Some(origin.polar(bodies.ring.section().radius, degrees.to_radians())),
+            (SensorSpot::RingDeg(degrees), _) => {
+                let label = sensor.bearing.as_deref().unwrap_or_default();
+                let seat = seats.iter().find(|seat| seat.label == label);
+                seat.map(|seat| centre_of(bodies, seat).polar(seat.ring.section().radius, degrees.to_radians()))
+            }
             (SensorSpot::Point(point), Some(housing)) => {
                 let [x, y, _] = housing.model.frame().point(*point);
                 Some(Point { x, y })

@@ -1,6 +1,6 @@
 //! What several results say.
 
-use crate::app::scene::RingInHousing;
+use crate::app::scene::RingsInHousing;
 use crate::fe::reduction::Check;
 use schemars::JsonSchema;
 use serde::Serialize;
@@ -22,7 +22,7 @@ pub struct SuperelementSummary<'a> {
 impl<'a> SuperelementSummary<'a> {
     /// That around a ring; `None` where its housing is of a mesh, or it has none.
     #[must_use]
-    pub(crate) fn of(bodies: &'a RingInHousing) -> Option<Self> {
+    pub(crate) fn of(bodies: &'a RingsInHousing) -> Option<Self> {
         let imported = bodies.imported.as_ref()?;
         Some(Self {
             path: &imported.path,

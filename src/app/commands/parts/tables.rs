@@ -5,9 +5,10 @@ use serde::Serialize;
 
 use super::case_words::damping_words;
 use crate::app::case::{Bond, Case, Defect, DentProfile, Expected};
-use crate::app::scene::RingInHousing;
+use crate::app::scene::RingsInHousing;
 use crate::fe::element::continuum::PlaneAssumption;
 use crate::fe::material::RadiusRule;
+use crate::fe::model::RingSeat;
 use crate::report::{Cell, Column, Document, Fact, Report, Table, Verdict, signed_fixed, significant};
 use crate::system::{BallsInertia, BearingSetup, Formulation, LoadedModes};
 
@@ -16,15 +17,18 @@ const LISTED_MODES: usize = 20;
 
 /// The linear model in facts; `fixed_interface_modes`: number of vectors of the condensed housing's interior, where something of the
 /// report was computed with it.
-pub(crate) fn model_facts(bodies: &RingInHousing, fixed_interface_modes: Option<usize>) -> Vec<Fact> {
-    let ring = &bodies.ring;
-    let section = ring.section();
-    let mut facts = vec![
-        Fact::new("Ring", format!("{} nodes, {} degrees of freedom", ring.nodes(), ring.dof())),
-        Fact::new("Node radius", format!("{} mm", significant(section.radius * 1e3, 5))),
-        Fact::new("Bending stiffness EI", format!("{} N m^2", significant(section.bending, 4))),
-        Fact::new("Mass per length", format!("{} kg/m", significant(section.mass, 4))),
-    ];
+pub(crate) fn model_facts(bodies: &RingsInHousing, fixed_interface_modes: Option<usize>) -> Vec<Fact> {
+    let of_ring = |RingSeat { label, ring, .. }: &RingSeat| {
+        let section = ring.section();
+        let named = |what: &str| format!("{what} {label}").trim_end().to_owned();
+        [
+            Fact::new(named("Ring"), format!("{} nodes, {} degrees of freedom", ring.nodes(), ring.dof())),
+            Fact::new(named("Node radius"), format!("{} mm", significant(section.radius * 1e3, 5))),
+            Fact::new(named("Bending stiffness EI"), format!("{} N m^2", significant(section.bending, 4))),
+            Fact::new(named("Mass per length"), format!("{} kg/m", significant(section.mass, 4))),
+        ]
+    };
+    let mut facts: Vec<Fact> = bodies.rings.seats().iter().flat_map(of_ring).collect();
     if let Some(imported) = &bodies.imported {
         let (interface_dof, modes) = (imported.element.interface_dof, imported.element.modal_dof());
         facts.extend([
@@ -33,7 +37,7 @@ pub(crate) fn model_facts(bodies: &RingInHousing, fixed_interface_modes: Option<
         ]);
     }
     if let (Some(_), Some(modes)) = (&bodies.housing, fixed_interface_modes) {
-        let coordinates = format!("{} ring displacements and {modes} fixed-interface modes", ring.dof());
+        let coordinates = format!("{} ring displacements and {modes} fixed-interface modes", bodies.rings.dof());
         facts.push(Fact::new("Condensed to", coordinates).note("Craig-Bampton"));
     }
     facts
@@ -150,10 +154,12 @@ pub(crate) fn assumptions(case: &Case, setup: Option<&BearingSetup>) -> Vec<Stri
     if let Some(damping) = &case.damping {
         list.push(format!("Damping of ring and housing: {}.", damping_words(damping)));
     }
-    if let Some(ring) = &case.ring {
+    for seat in case.seats() {
+        let ring = seat.ring;
         if ring.sections.len() > 1 {
+            let what = if seat.label.is_empty() { String::new() } else { format!(" of bearing {}", seat.label) };
             list.push(format!(
-                "Rings in one section: {}, {}.",
+                "Rings in one section{what}: {}, {}.",
                 match ring.bond {
                     Bond::Slip => "in radial contact, free to slide",
                     Bond::Composite => "one body",
@@ -164,7 +170,7 @@ pub(crate) fn assumptions(case: &Case, setup: Option<&BearingSetup>) -> Vec<Stri
                 }
             ));
         }
-        if ring.tie.is_some() {
+        if ring.tie.is_some() && seat.is_first() {
             list.push("The bore follows the ring's own interpolation: a section-rigid bore, somewhat stiffer than a bore with the ring meshed into it.".to_owned());
         }
     }

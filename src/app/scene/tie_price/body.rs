@@ -7,7 +7,7 @@ use crate::app::case;
 use crate::app::case::Case;
 use crate::app::error::ComputeError;
 use crate::app::scene::AssembledHousing;
-use crate::app::scene::ring::{Seat, layer, metres};
+use crate::app::scene::ring::{BoreExtent, layer, metres};
 use crate::fe::element::continuum::PlaneAssumption;
 use crate::fe::material::{Material, RingLayer};
 use crate::fe::modal::{FullModes, ModeSet};
@@ -78,7 +78,7 @@ impl RingBody {
         if !asked.shear || !asked.rotary_inertia {
             notes.push("The beams leave out shear or rotary inertia, which a body has: see the ring alone.".to_owned());
         }
-        let seat = Seat::of(&housing.mesh, &housing.model, tie)?;
+        let seat = BoreExtent::of(&housing.mesh, &housing.model, housing.model.frame(), &tie.group)?;
         if housing.model.dimension() == 3 && seat.share_outside(width) > 1e-6 {
             notes.push(format!(
                 "The ring, {} wide, reaches beyond the bore, whose nodes lie from {} to {} along its axis.",
@@ -178,7 +178,7 @@ fn layer_is_not_rectangular(layer: &RingLayer) -> bool {
         || differs(layer.torsion_constant(), own.torsion_constant())
 }
 
-impl Seat {
+impl BoreExtent {
     /// Makes the ring's face finer than the bore's, if it is not: the nodes of the finer one follow.
     fn refine(&self, ring: &mut SolidRing, dimension: usize) {
         let round = |sides: f64| (sides.ceil() as usize).clamp(AROUND[0], AROUND[1]);
@@ -278,6 +278,14 @@ pub enum NoTiePrice {
     /// Nothing is tied.
     #[error("the case has no ring that is tied to a housing")]
     NoTie,
+    /// More than one ring.
+    #[error(
+        "the case has {count} bearings: the price is computed for one ring; give the others' bores as parts of the housing"
+    )]
+    SeveralRings {
+        /// How many.
+        count: usize,
+    },
     /// Rings fitted into each other.
     #[error(
         "the ring has {count} sections: there is no one body that bends as rings that slip on each other or are bonded at unknown radii"

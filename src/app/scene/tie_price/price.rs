@@ -11,7 +11,7 @@ use crate::app::case::Case;
 use crate::app::error::ComputeError;
 use crate::app::scene::AssembledHousing;
 use crate::app::scene::housing::description;
-use crate::app::scene::ring::{ring, ring_and_tie};
+use crate::app::scene::ring::{ring, rings_and_tie};
 use crate::fe::assembly::{CoupledMatrices, SystemMatrices};
 use crate::fe::mesh::{Mesh, MeshNotes};
 use crate::fe::modal::{
@@ -19,7 +19,7 @@ use crate::fe::modal::{
 };
 use crate::fe::model::{
     Connection, Fit, HousingDescription, HousingModel, HousingPart, Link, MeshedRing, ModelError, OverlapRule,
-    PlaneModel, Ring, SpringStiffness, SupportShare,
+    PlaneModel, Ring, Rings, SpringStiffness, SupportShare,
 };
 use crate::numerics::Watch;
 use crate::numerics::linalg::DenseMatrix;
@@ -100,6 +100,9 @@ pub(crate) fn tie_price(
     count: usize,
     watch: &impl Watch,
 ) -> Result<TiePrice, ComputeError> {
+    if case.bearings.len() > 1 {
+        return Ok(TiePrice::NotComputed(NoTiePrice::SeveralRings { count: case.bearings.len() }));
+    }
     let both = case.ring.as_ref().zip(case.meshed_housing());
     let tied = both.and_then(|(asked, of)| Some((asked, of, asked.tie.as_ref()?)));
     let Some((asked, asked_housing, tie)) = tied else {
@@ -126,28 +129,29 @@ struct Tied<'a, W> {
 impl<W: Watch> Tied<'_, W> {
     fn compared(&self, asked_housing: &case::Housing) -> Result<TieComparison, Stop> {
         let AssembledHousing { mesh, model, matrices } = self.housing;
-        let (ring, tie) = ring_and_tie(self.case, self.asked, Some(self.housing))?;
+        let (rings, tie) = rings_and_tie(self.case, Some(self.housing))?;
+        let ring = &rings.first().ring;
         let tie = tie.ok_or(NoTiePrice::NoTie)?;
         self.watch.stage("solid ring");
         let body = RingBody::of(self.case, self.asked, self.tie, self.housing)?;
         let description = description(self.case, asked_housing)?;
         let plane = description.plane;
-        let (with_body, meshed) = self.joined(description, &body, &ring)?;
-        let matrices = CoupledMatrices::new(matrices, &tie, &ring);
+        let (with_body, meshed) = self.joined(description, &body, ring)?;
+        let matrices = CoupledMatrices::new(matrices, &tie, &rings);
         let mut beams = FullModes::of(matrices, ModeRange::AtMost(self.sought()), None, self.watch)?;
         beams.sharpen(&|motions, all| {
-            let of_ring = ring.strain_products(&motions.ring(all));
+            let of_ring = ring.strain_products(&motions.rings(all));
             let of_housing = strain_products(model, &motions.housing(model, all))?;
             Ok(of_housing + of_ring.beams + of_ring.springs)
         })?;
         let solid = self.modes_of(&with_body)?;
         // the housing's own nodes come first in both, and the ring's after them
         let of_housing = beams.motions.housing(model, &beams.over_all_rows());
-        let of_ring = beams.motions.ring(&beams.over_all_rows());
+        let of_ring = beams.motions.rings(&beams.over_all_rows());
         let nodes = mesh.nodes.len();
         let points = Points::new(&meshed, (0..nodes).chain(section_nodes(&meshed)));
         let dimension = model.dimension();
-        let carried = beam_shapes(&ring, model.frame(), &of_ring, &points.places[nodes..]);
+        let carried = beam_shapes(ring, model.frame(), &of_ring, &points.places[nodes..]);
         let of_beams = DenseMatrix::from_fn(3 * points.nodes.len(), of_ring.ncols(), |row, mode| {
             match row.checked_sub(3 * nodes) {
                 Some(row) => carried[(row, mode)],
@@ -229,8 +233,9 @@ impl<W: Watch> Tied<'_, W> {
         let in_space = plane.is_none();
         let free = case::Ring { supports: Vec::new(), ..self.asked.clone() };
         let beams = ring(self.case, &free, in_space)?;
+        let alone = Rings::one(beams.clone(), *self.housing.model.frame());
         let range = ModeRange::AtMost(self.sought());
-        let mut of_beams = FullModes::of(CoupledMatrices::of_ring(&beams), range, None, self.watch)?;
+        let mut of_beams = FullModes::of(CoupledMatrices::of_rings(&alone), range, None, self.watch)?;
         of_beams.sharpen(&|_, all| {
             let strain = beams.strain_products(all);
             Ok(strain.beams + strain.springs)

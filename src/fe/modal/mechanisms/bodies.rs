@@ -1,7 +1,7 @@
 //! Bodies of a housing: elements that hang together through whole faces, edges in the plane.
 
 use crate::fe::mesh::{Sets, sorted_faces};
-use crate::fe::model::{HousingModel, Ring};
+use crate::fe::model::{HousingModel, RingSeat};
 use rayon::prelude::*;
 use std::collections::BTreeMap;
 
@@ -15,8 +15,8 @@ pub(super) struct BodyMap {
     first: Vec<Option<usize>>,
     /// Bodies after the first of the nodes that several share.
     pub shared: BTreeMap<usize, Vec<usize>>,
-    /// The ring in the bore; it has no nodes here.
-    pub ring: Option<usize>,
+    /// The rings in the bores, in their order; they have no nodes here.
+    pub rings: Vec<usize>,
 }
 
 /// Where a body is.
@@ -61,17 +61,13 @@ impl BodyMap {
                 extent.radius = extent.radius.max(apart(extent.centre, model.coordinates[node]));
             }
         }
-        Self { of_element, extents, first, shared, ring: None }
+        Self { of_element, extents, first, shared, rings: Vec::new() }
     }
 
-    /// Adds the ring in the bore as the last body.
-    pub(super) fn add_ring(&mut self, model: &HousingModel, ring: &Ring) {
-        self.ring = Some(self.extents.len());
-        self.extents.push(Extent {
-            elements: ring.nodes(),
-            centre: model.frame.centre(),
-            radius: ring.section().radius,
-        });
+    /// Adds a ring as the last body.
+    pub(super) fn add_ring(&mut self, RingSeat { ring, frame, .. }: &RingSeat) {
+        self.rings.push(self.extents.len());
+        self.extents.push(Extent { elements: ring.nodes(), centre: frame.centre(), radius: ring.section().radius });
     }
 
     /// A body that the node belongs to; `None` for a node that no element uses.

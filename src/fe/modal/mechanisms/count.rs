@@ -6,7 +6,7 @@ use super::super::motions::{rigid_component, rigid_count};
 use super::bodies::{BodyMap, Extent, apart};
 use super::rows::{AllConstraints, Between, Constraints, rank, ring_spring_rows};
 use crate::fe::mesh::{Mesh, Sets};
-use crate::fe::model::{HousingModel, Ring, RingFrame, RingTie};
+use crate::fe::model::{HousingModel, RingSeat, RingTie, Rings};
 use crate::numerics::linalg::SparseMatrix;
 use schemars::JsonSchema;
 use serde::Serialize;
@@ -15,10 +15,10 @@ use std::collections::BTreeSet;
 /// Most bodies that are looked at: the dense problem has 6 unknowns each.
 const MOST_BODIES: usize = 200;
 
-/// What is in the bore, or at another interface.
+/// What is in the bores, or at another interface.
 pub(crate) enum Bore<'m> {
     Empty,
-    Ring(&'m RingTie, &'m Ring),
+    Rings(&'m RingTie, &'m Rings),
     /// Displacements are held there, in the axes that the matrix turns to the mesh's.
     Held(&'m [usize], Option<&'m SparseMatrix>),
 }
@@ -26,8 +26,11 @@ pub(crate) enum Bore<'m> {
 /// Elements that hang together through whole faces (edges in the plane).
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct Body {
-    /// Whether it is the ring, which has neither parts nor groups.
+    /// Whether it is a ring, which has neither parts nor groups.
     pub is_ring: bool,
+    /// What a sentence calls it if it is a ring.
+    #[serde(skip)]
+    pub(super) ring_name: String,
     /// Parts that it has elements of.
     pub parts: Vec<String>,
     /// Physical groups of volumes (plane: surfaces) that it has elements of.
@@ -43,7 +46,7 @@ pub struct Body {
 /// Bodies that are joined somehow, directly or through others.
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct Piece {
-    /// Its bodies, largest first, the ring last.
+    /// Its bodies, largest first, rings last.
     pub bodies: Vec<usize>,
     /// Number of elements.
     pub elements: usize,
@@ -75,7 +78,7 @@ pub struct Mechanisms {
     pub dimension: usize,
     /// The bodies, in the order of the mesh.
     pub bodies: Vec<Body>,
-    /// The pieces; first the ring's, then the largest.
+    /// The pieces; first those of rings, then the largest.
     pub pieces: Vec<Piece>,
     /// Joints that let bodies of a piece with internal motions move.
     pub joints: Vec<Joint>,
@@ -96,7 +99,7 @@ impl Mechanisms {
         Self::of_bodies(mesh, model, &Bore::Empty)
     }
 
-    /// The same with something in the bore. A ring is one more body, joined by the tie; where displacements are held besides the
+    /// The same with something in the bores. A ring is one more body, joined by the tie; where displacements are held besides the
     /// supports, what can still move makes the stiffness of the others singular. `None` for too many bodies: that is worth no
     /// error where only reasons were asked for.
     ///
@@ -109,47 +112,33 @@ impl Mechanisms {
         }
     }
 
-    /// The motions of a ring alone that its springs leave, in its own axes.
-    pub(crate) fn of_ring(ring: &Ring) -> Self {
-        let dimension = if ring.is_in_space() { 3 } else { 2 };
+    /// The motions of rings alone that their springs leave.
+    pub(crate) fn of_rings(rings: &Rings) -> Self {
+        let dimension = if rings.are_in_space() { 3 } else { 2 };
         let full = rigid_count(dimension);
-        let rows = ring_spring_rows(ring, &RingFrame::default());
-        let rows: Vec<Vec<f64>> = rows.into_iter().map(|row| row[..full].to_vec()).collect();
-        let rigid = full - rank(&rows);
-        let of_whole = if rigid == full { full } else { 0 };
-        Self {
-            dimension,
-            bodies: vec![Body {
-                is_ring: true,
-                parts: Vec::new(),
-                groups: Vec::new(),
-                elements: ring.nodes(),
-                centroid: [0.0; 3],
-                piece: 0,
-            }],
-            pieces: vec![Piece { bodies: vec![0], elements: ring.nodes(), rigid, internal: 0 }],
-            joints: Vec::new(),
-            of_whole,
-            of_loose_pieces: 0,
-            mechanisms: rigid - of_whole,
-        }
+        let piece = |(number, seat): (usize, &RingSeat)| {
+            let rows: Vec<Vec<f64>> = ring_spring_rows(seat).into_iter().map(|row| row[..full].to_vec()).collect();
+            Piece { bodies: vec![number], elements: seat.ring.nodes(), rigid: full - rank(&rows), internal: 0 }
+        };
+        let pieces: Vec<Piece> = rings.seats().iter().enumerate().map(piece).collect();
+        let bodies = rings.seats().iter().enumerate().map(|(piece, seat)| Body { piece, ..ring_body(seat) });
+        Self::counted(dimension, bodies.collect(), pieces, Vec::new())
     }
 
     fn of_bodies(mesh: &Mesh, model: &HousingModel, bore: &Bore<'_>) -> Result<Self, ModalError> {
         let mut map = BodyMap::new(model);
-        if let Bore::Ring(_, ring) = bore {
-            map.add_ring(model, ring);
-        }
+        let rings = if let Bore::Rings(_, rings) = bore { rings.seats() } else { &[] };
+        rings.iter().for_each(|seat| map.add_ring(seat));
         if map.extents.len() > MOST_BODIES {
             return Err(ModalError::TooManyBodies { found: map.extents.len(), limit: MOST_BODIES });
         }
         let mut constraints = AllConstraints::new(model, &map);
         match *bore {
             Bore::Empty => {}
-            Bore::Ring(tie, ring) => constraints.add_ring(tie, ring),
+            Bore::Rings(tie, rings) => constraints.add_rings(tie, rings),
             Bore::Held(dofs, rotation) => constraints.hold(dofs, rotation),
         }
-        let mut bodies = described(mesh, model, &map)?;
+        let mut bodies = described(mesh, model, &map, rings)?;
         let full = rigid_count(model.dimension);
         let mut pieces = Vec::new();
         for members in pieces_of(&map, &constraints) {
@@ -163,7 +152,7 @@ impl Mechanisms {
                 internal: all.saturating_sub(rigid),
             });
         }
-        let has_ring = |piece: &Piece| map.ring.is_some_and(|ring| piece.bodies.contains(&ring));
+        let has_ring = |piece: &Piece| map.rings.iter().any(|ring| piece.bodies.contains(ring));
         pieces.sort_by_key(|piece| std::cmp::Reverse((has_ring(piece), piece.elements)));
         for (number, piece) in pieces.iter().enumerate() {
             piece.bodies.iter().for_each(|&body| bodies[body].piece = number);
@@ -175,19 +164,17 @@ impl Mechanisms {
             .filter(|(between, _)| !between.ground && between.bodies.iter().any(|&b| internal(b)))
             .filter_map(|(between, own)| joint(between, own, model, full))
             .collect();
+        Ok(Self::counted(model.dimension, bodies, pieces, joints))
+    }
+
+    /// Sums up what the pieces leave free.
+    fn counted(dimension: usize, bodies: Vec<Body>, pieces: Vec<Piece>, joints: Vec<Joint>) -> Self {
+        let full = rigid_count(dimension);
         let nothing_held = pieces.iter().all(|piece| piece.rigid == full);
         let of_whole = if nothing_held && !pieces.is_empty() { full } else { 0 };
         let free: usize = pieces.iter().map(|p| p.rigid).filter(|&rigid| rigid == full).sum();
         let total: usize = pieces.iter().map(|piece| piece.rigid + piece.internal).sum();
-        Ok(Self {
-            dimension: model.dimension,
-            bodies,
-            joints,
-            of_whole,
-            of_loose_pieces: free - of_whole,
-            mechanisms: total - free,
-            pieces,
-        })
+        Self { dimension, bodies, joints, of_whole, of_loose_pieces: free - of_whole, mechanisms: total - free, pieces }
     }
 
     /// Number of modes that must have no energy.
@@ -213,7 +200,7 @@ pub(crate) fn pieces_at(mesh: &Mesh, model: &HousingModel, nodes: &[usize]) -> R
     Ok(pieces.iter().map(parts_of).collect())
 }
 
-fn described(mesh: &Mesh, model: &HousingModel, map: &BodyMap) -> Result<Vec<Body>, ModalError> {
+fn described(mesh: &Mesh, model: &HousingModel, map: &BodyMap, rings: &[RingSeat]) -> Result<Vec<Body>, ModalError> {
     let membership = Membership::new(mesh, model)?;
     let mut parts = vec![BTreeSet::new(); map.extents.len()];
     let mut groups = vec![BTreeSet::new(); map.extents.len()];
@@ -224,18 +211,32 @@ fn described(mesh: &Mesh, model: &HousingModel, map: &BodyMap) -> Result<Vec<Bod
     let names = |list: &[String], chosen: &BTreeSet<usize>| -> Vec<String> {
         chosen.iter().filter_map(|&place| list.get(place).cloned()).collect()
     };
-    let described = map.extents.iter().enumerate().map(|(number, extent)| Body {
-        is_ring: map.ring == Some(number),
+    let of_elements = map.extents.len() - rings.len();
+    let described = map.extents.iter().enumerate().take(of_elements).map(|(number, extent)| Body {
+        is_ring: false,
+        ring_name: String::new(),
         parts: names(&model.part_groups(), &parts[number]),
         groups: names(&membership.names, &groups[number]),
         elements: extent.elements,
         centroid: extent.centre,
         piece: 0,
     });
-    Ok(described.collect())
+    Ok(described.chain(rings.iter().map(ring_body)).collect())
 }
 
-/// Sets of joined bodies; the largest body of each first, the ring last.
+fn ring_body(seat: &RingSeat) -> Body {
+    Body {
+        is_ring: true,
+        ring_name: seat.name(),
+        parts: Vec::new(),
+        groups: Vec::new(),
+        elements: seat.ring.nodes(),
+        centroid: seat.frame.centre(),
+        piece: 0,
+    }
+}
+
+/// Sets of joined bodies; the largest body of each first, rings last.
 fn pieces_of(map: &BodyMap, constraints: &AllConstraints) -> Vec<Vec<usize>> {
     let count = map.extents.len();
     let mut sets = Sets::new(count);
@@ -248,8 +249,8 @@ fn pieces_of(map: &BodyMap, constraints: &AllConstraints) -> Vec<Vec<usize>> {
     (0..count).for_each(|body| members[sets.root(body)].push(body));
     members.retain(|members| !members.is_empty());
     for members in &mut members {
-        // the ring last: a piece is named by its first
-        let key = |&body: &usize| (map.ring != Some(body), map.extents[body].elements);
+        // rings last: a piece is named by its first
+        let key = |body: &usize| (!map.rings.contains(body), map.extents[*body].elements);
         members.sort_by_key(|body| std::cmp::Reverse(key(body)));
     }
     members

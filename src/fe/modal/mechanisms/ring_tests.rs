@@ -34,7 +34,7 @@ fn find(dimension: usize, apart: bool, fit: Fit, ring: Ring, feet: bool) -> Mech
         ..description(&cells, &parts, 1.0)
     };
     let solved = ringed(&cells.mesh, description, ring, fit, 20);
-    let bore = Bore::Ring(&solved.tie, &solved.ring);
+    let bore = Bore::Rings(&solved.tie, &solved.rings);
     let found = Mechanisms::find_in(&cells.mesh, &solved.model, &bore).expect("its own mesh").expect("few bodies");
     assert_eq!(found.total(), solved.basis.rigid_modes, "{found:?}");
     found
@@ -100,7 +100,7 @@ fn a_ring_alone() {
             Some(spring) => held(ring_for_block(2), spring),
             None => ring_for_block(2),
         };
-        let found = Mechanisms::of_ring(&ring);
+        let found = Mechanisms::of_rings(&ring.clone().into());
         assert_eq!(counts(&found), expected, "{spring:?}");
         let sentences = match expected[2] {
             0 => Vec::new(),

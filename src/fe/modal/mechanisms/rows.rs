@@ -3,10 +3,10 @@
 //! A body's motion is its translation and its rotation times its radius, about its centre: all of one unit, so that
 //! entries are of the order 1 for bodies of any size.
 
-use super::super::motions::{rigid_component, rigid_count, ring_motions};
+use super::super::motions::{rigid_component, rigid_count, seat_motions};
 use super::super::strain_products::{SpringRow, spring_rows};
 use super::bodies::BodyMap;
-use crate::fe::model::{HousingModel, NodalSource, Ring, RingFrame, RingTie};
+use crate::fe::model::{HousingModel, NodalSource, RingSeat, RingTie, Rings};
 use crate::numerics::linalg::{DenseMatrix, SparseMatrix};
 use nalgebra::DMatrix;
 use std::collections::{BTreeMap, BTreeSet};
@@ -62,12 +62,16 @@ impl<'m> AllConstraints<'m> {
         all
     }
 
-    /// The ring: every driven displacement of the bore follows it, and its springs hold it.
-    pub(super) fn add_ring(&mut self, tie: &RingTie, ring: &Ring) {
-        let Some(number) = self.bodies.ring else {
-            return;
-        };
-        for &dof in &tie.partition().driven {
+    /// The rings: every driven displacement of a bore follows its ring, which its springs hold.
+    pub(super) fn add_rings(&mut self, tie: &RingTie, rings: &Rings) {
+        let bodies = self.bodies;
+        for ((&number, seat), driven) in bodies.rings.iter().zip(rings.seats()).zip(tie.driven()) {
+            self.add_ring(number, seat, driven, tie);
+        }
+    }
+
+    fn add_ring(&mut self, number: usize, seat: &RingSeat, driven: &[usize], tie: &RingTie) {
+        for &dof in driven {
             let Some(body) = self.bodies.of_node(dof / self.model.dimension) else {
                 continue;
             };
@@ -77,7 +81,7 @@ impl<'m> AllConstraints<'m> {
                 constraints.tied = true;
             }
         }
-        for own in ring_spring_rows(ring, &self.model.frame) {
+        for own in ring_spring_rows(seat) {
             self.add_row(&BTreeMap::from([(number, own)]), true);
         }
     }
@@ -234,8 +238,8 @@ impl Constraints {
 }
 
 /// What each spring of a ring resists, in the motions of the ring about its own centre.
-pub(super) fn ring_spring_rows(ring: &Ring, frame: &RingFrame) -> Vec<[f64; 6]> {
-    let motions = ring_motions(ring, frame, frame.centre());
+pub(super) fn ring_spring_rows(seat: &RingSeat) -> Vec<[f64; 6]> {
+    let (motions, ring) = (seat_motions(seat, seat.frame.centre()), &seat.ring);
     let translations = if ring.is_in_space() { 3 } else { 2 };
     let of_spring = ring.springs.iter().map(|spring| {
         std::array::from_fn(|motion| {

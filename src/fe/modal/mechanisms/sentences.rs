@@ -82,7 +82,7 @@ impl Mechanisms {
             count => format!(" with {} bodies more", count - 1),
         };
         if body.is_ring {
-            return format!("the ring{others}");
+            return format!("{}{others}", body.ring_name);
         }
         let word = if body.parts.len() > 1 { "parts" } else { "part" };
         let elements = match piece.elements {
@@ -99,7 +99,7 @@ impl Mechanisms {
             return String::new();
         };
         if own.is_ring {
-            return "the ring".to_owned();
+            return own.ring_name.clone();
         }
         let name = quoted(&own.parts);
         let alike = self.bodies.iter().filter(|other| other.parts == own.parts).count();
