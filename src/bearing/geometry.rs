@@ -98,6 +98,23 @@ impl BearingGeometry {
         Ok(Self { radial_play, ..self })
     }
 
+    /// The same bearing with the radial play that gives it this free contact angle (rad, above 0 and below π/2):
+    /// `c = (f_i + f_o − 1) D_b (1 − cos α)`.
+    ///
+    /// # Errors
+    /// [`BearingError`] for another angle, and as [`Self::with_radial_play`].
+    pub fn with_free_contact_angle(self, angle: f64) -> Result<Self, BearingError> {
+        if !(angle > 0.0 && angle < 0.5 * PI) {
+            let degrees = angle.to_degrees();
+            return Err(BearingError(format!(
+                "free contact angle = {degrees:.4} degrees must be above 0 and below 90"
+            )));
+        }
+        let between_centres =
+            (self.inner_conformity() + self.outer_conformity() - 1.0) * 2.0 * self.dimensions.ball_radius;
+        self.with_radial_play(2.0 * between_centres * (0.5 * angle).sin().powi(2))
+    }
+
     /// The dimensions as given.
     pub fn dimensions(&self) -> &BearingDimensions {
         &self.dimensions

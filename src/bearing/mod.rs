@@ -22,6 +22,7 @@ pub mod hertz;
 pub mod impact;
 pub mod kinematics;
 pub mod materials;
+pub mod spatial;
 pub mod speed;
 pub mod waviness;
 
