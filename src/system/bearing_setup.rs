@@ -121,21 +121,21 @@ impl BearingSetup {
     }
 }
 
-/// Force in the bearing's plane, N.
+/// A load over time: force in the bearing's plane (N), or so many components.
 #[derive(Debug, Clone, PartialEq, Default)]
-pub struct LoadProfile {
-    /// Time (s) and force (N); times ascending.
-    points: Vec<(f64, [f64; 2])>,
+pub struct LoadProfile<const N: usize = 2> {
+    /// Time (s) and components; times ascending.
+    points: Vec<(f64, [f64; N])>,
 }
 
-impl LoadProfile {
+impl<const N: usize> LoadProfile<N> {
     /// The same force always.
-    pub(crate) fn constant(force: [f64; 2]) -> Self {
+    pub(crate) fn constant(force: [f64; N]) -> Self {
         Self { points: vec![(0.0, force)] }
     }
 
-    /// Through points (s, N); those that do not come after the one before are left out. Without points there is no force.
-    pub(crate) fn through(points: &[(f64, [f64; 2])]) -> Self {
+    /// Through points (s, components); those that do not come after the one before are left out. Without points there is no force.
+    pub(crate) fn through(points: &[(f64, [f64; N])]) -> Self {
         let mut points = points.to_vec();
         points.dedup_by(|next, before| next.0.partial_cmp(&before.0) != Some(Ordering::Greater));
         Self { points }
@@ -147,19 +147,19 @@ impl LoadProfile {
         self.points.get(after).map_or(f64::INFINITY, |point| point.0)
     }
 
-    /// Force at `time` (s), N.
+    /// Components at `time` (s).
     #[inline]
-    pub(crate) fn at(&self, time: f64) -> [f64; 2] {
+    pub(crate) fn at(&self, time: f64) -> [f64; N] {
         let after = self.points.partition_point(|point| point.0 <= time);
         match (after.checked_sub(1), self.points.get(after)) {
             (Some(before), Some((end, last))) => {
                 let (start, first) = self.points[before];
                 let share = (time - start) / (end - start);
-                [0, 1].map(|k| first[k] + share * (last[k] - first[k]))
+                std::array::from_fn(|k| first[k] + share * (last[k] - first[k]))
             }
             (Some(before), None) => self.points[before].1,
             (None, Some(&(_, first))) => first,
-            (None, None) => [0.0; 2],
+            (None, None) => [0.0; N],
         }
     }
 }
@@ -178,7 +178,7 @@ mod tests {
             }
         }
         assert_relative_eq!(LoadProfile::constant([1.0, 2.0]).at(-7.0)[1], 2.0);
-        assert_relative_eq!(LoadProfile::default().at(0.0)[0], 0.0);
+        assert_relative_eq!(LoadProfile::<2>::default().at(0.0)[0], 0.0);
         for (time, knot) in [(0.0, 1.0), (1.0, 3.0), (2.9, 3.0)] {
             assert_relative_eq!(load.next_knot(time), knot);
         }

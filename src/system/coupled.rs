@@ -28,7 +28,7 @@ pub enum ModeSelection {
 
 impl ModeSelection {
     /// Number of lowest modes that the selection keeps.
-    fn count(&self, modes: &StructureModes) -> usize {
+    pub(super) fn count(&self, modes: &StructureModes) -> usize {
         match *self {
             Self::All => modes.count(),
             Self::Count(count) => count.min(modes.count()),

@@ -19,6 +19,7 @@ mod raceway;
 mod recorder;
 mod residual;
 mod resting;
+mod spatial;
 mod statics;
 mod structure;
 mod turning;
@@ -30,6 +31,10 @@ pub use equilibrium::{BallLoad, Equilibrium, StaticCondition};
 pub use error::SystemError;
 pub use loaded::{LoadedMode, LoadedModes, LoadedPass, LoadedPoint, LoadedShapes};
 pub use recorder::{Column, Recorder, RunRecord};
+pub use spatial::{
+    BearingInPlace, SpatialBallLoad, SpatialCondition, SpatialEquilibrium, SpatialLoad, SpatialSetup, SpatialShaft,
+    SpatialSystem, Unbalance,
+};
 pub(crate) use statics::stiffness_along;
 pub use statics::{PassPoint, Statics};
 pub use structure::{Sensor, Structure, StructureModes};

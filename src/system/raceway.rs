@@ -11,9 +11,9 @@
 //! element is then cut into so many pieces that quintics with its values, slopes and curvatures at their ends do so too.
 
 use super::structure::StructureModes;
-use crate::fe::model::{Ring, RingRows};
+use crate::fe::model::{Ring, RingRows, RingSeat};
 use crate::numerics::lanes::{LANES, Lanes, each, together, total};
-use std::f64::consts::PI;
+use std::f64::consts::{PI, TAU};
 
 /// Values of the kept modes along the raceway.
 #[derive(Debug, Clone)]
@@ -39,6 +39,30 @@ impl RacewayTable {
             let rows = ring.rows_in_element(element, xi * half);
             let factors = component(&rows);
             let value = |mode: usize| -> f64 { (0..6).map(|k| factors[k] * modes.shapes[(rows.dofs[k], mode)]).sum() };
+            (0..kept).map(value).collect()
+        };
+        Self::fit(ring.nodes(), kept, &sample)
+    }
+
+    /// Table of the radial or the axial displacement of a point of the section of a ring in space, `arm` (m) outside its node radius, by
+    /// the lowest `kept` modes.
+    pub(crate) fn along_groove(
+        RingSeat { ring, first, .. }: &RingSeat,
+        modes: &StructureModes,
+        kept: usize,
+        arm: f64,
+        axial: bool,
+    ) -> Self {
+        let width = TAU / ring.nodes() as f64;
+        let sample = |element: usize, xi: f64| -> Vec<f64> {
+            let angle = (element as f64 + 0.5 + 0.5 * xi) * width;
+            let Some(rows) = ring.space_rows_at(angle) else {
+                return vec![0.0; kept];
+            };
+            let factors = rows.displacement_at(arm, 0.0)[if axial { 2 } else { 0 }];
+            let value = |mode: usize| -> f64 {
+                rows.dofs.iter().zip(factors).map(|(dof, factor)| factor * modes.shapes[(first + dof, mode)]).sum()
+            };
             (0..kept).map(value).collect()
         };
         Self::fit(ring.nodes(), kept, &sample)

@@ -122,6 +122,16 @@ impl SpatialBearing {
     }
 
     /// Its dimensions.
+    pub(crate) fn law(&self) -> &BallLaw {
+        &self.law
+    }
+
+    /// Number of balls.
+    pub(crate) fn balls(&self) -> usize {
+        self.geometry.balls() as usize
+    }
+
+    /// Its geometry.
     pub(crate) fn geometry(&self) -> &BearingGeometry {
         &self.geometry
     }

@@ -49,7 +49,7 @@ pub enum RaceControl {
 
 impl RaceControl {
     /// λ_i and λ_o.
-    fn shares(self) -> [f64; 2] {
+    pub(crate) fn shares(self) -> [f64; 2] {
         match self {
             Self::Outer => [0.0, 2.0],
             Self::Shared => [1.0, 1.0],

@@ -66,6 +66,11 @@ impl AngleStiffness {
         )))
     }
 
+    /// Coefficients of the Chebyshev polynomials over 2 x - 1, x the cosine, from T_0 on.
+    pub fn coefficients(&self) -> &[f64] {
+        &self.0
+    }
+
     /// k and its first two derivatives by the cosine; constant below a cosine of zero.
     #[inline]
     pub fn at(&self, cosine: f64) -> [f64; 3] {

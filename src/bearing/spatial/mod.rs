@@ -25,8 +25,14 @@ mod shaft;
 mod tests;
 
 pub use assembly::{BallState, BearingCondition, BearingState, SpatialBearing};
+pub(crate) use ball::BallLaw;
 pub use ball::RaceControl;
+#[cfg(test)]
+pub(crate) use contact::AngleStiffness;
+pub(crate) use contact::{GrooveContact, GrooveState};
 pub use equilibrium::ShaftEquilibrium;
 pub use groove::Thrust;
+pub(crate) use ring::InnerFrame;
 pub use ring::RingDisplacement;
+pub(crate) use shaft::Axis;
 pub use shaft::{MountedBearing, RigidShaft, ShaftLoad};

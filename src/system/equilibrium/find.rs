@@ -1,8 +1,8 @@
 //! Where everything rests: the equilibrium that the load leads to, and the others.
 
 use super::StaticCondition;
-use super::problem::Problem;
-use super::search::{Found, HELD};
+use super::problem::{PlaneContacts, Problem};
+use super::search::{Found, HELD, Search};
 use crate::numerics::linalg::DenseMatrix;
 use crate::system::{BearingSetup, Formulation, Structure, SystemError};
 use nalgebra::{DMatrix, DVector};
@@ -114,14 +114,14 @@ impl Equilibrium {
 
 impl Problem<'_> {
     /// The equilibrium that a search found; `loads` as [`Problem::new`] gives them.
-    fn result(&self, found: &Found, loads: &DenseMatrix, structure: &Structure) -> Equilibrium {
+    fn result(&self, found: &Found<PlaneContacts>, loads: &DenseMatrix, structure: &Structure) -> Equilibrium {
         let Found { z, evaluation, .. } = found;
         let balls = self.angles.len();
         let structure_load: Vec<f64> = (0..structure.dof())
             .map(|row| {
                 let contacts: f64 = (0..balls)
                     .map(|j| {
-                        let force = &evaluation.outer[j];
+                        let force = &evaluation.contacts.outer[j];
                         loads[(row, 2 * j)] * force.radial + loads[(row, 2 * j + 1)] * force.tangential
                     })
                     .sum();
@@ -141,8 +141,8 @@ impl Problem<'_> {
                 .map(|j| BallLoad {
                     angle: self.angles[j],
                     displacement: z[2 + j],
-                    inner: evaluation.inner[j],
-                    outer: evaluation.outer[j].magnitude,
+                    inner: evaluation.contacts.inner[j],
+                    outer: evaluation.contacts.outer[j].magnitude,
                 })
                 .collect(),
             structure_load,
@@ -178,8 +178,8 @@ fn shaft_stiffness(hessian: &DMatrix<f64>) -> [[f64; 2]; 2] {
 }
 
 /// Adds what is not there yet.
-fn keep(all: &mut Vec<Found>, new: Found) {
-    let apart = |old: &Found| (&old.z - &new.z).amax() > SAME;
+fn keep(all: &mut Vec<Found<PlaneContacts>>, new: Found<PlaneContacts>) {
+    let apart = |old: &Found<PlaneContacts>| (&old.z - &new.z).amax() > SAME;
     if all.iter().all(apart) {
         all.push(new);
     }

@@ -19,3 +19,4 @@ mod search;
 pub use find::{BallLoad, Equilibrium};
 pub use problem::StaticCondition;
 pub(super) use problem::contact_rows;
+pub(super) use search::{Evaluation, Found, HELD, Potential, Search};

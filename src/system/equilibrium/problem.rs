@@ -2,18 +2,16 @@
 //!
 //! What an equilibrium is asked for.
 
+use super::search::{Evaluation, Potential};
 use crate::numerics::linalg::DenseMatrix;
 use crate::system::race::RaceForce;
 use crate::system::resting::RestingRaces;
 use crate::system::{BearingSetup, Formulation, Structure, SystemError};
 use nalgebra::{DMatrix, DVector};
 
-/// One evaluation of the reduced potential.
-pub(super) struct Evaluation {
-    /// Force out of balance on the shaft's two displacements and the balls', N.
-    pub gradient: DVector<f64>,
-    /// N/m.
-    pub hessian: DMatrix<f64>,
+/// What the contacts of a bearing carry, ball by ball.
+pub(super) struct PlaneContacts {
+    /// Magnitudes at the inner race, N.
     pub inner: Vec<f64>,
     pub outer: Vec<RaceForce>,
 }
@@ -63,53 +61,6 @@ impl<'a> Problem<'a> {
             },
             loads,
         ))
-    }
-
-    /// Distance of a ball that touches the outer race from the bearing's centre, m.
-    pub(super) fn touching_radius(&self) -> f64 {
-        self.races.inner_race.touching_radius
-    }
-
-    /// Force that others are measured by, N: the load, at least a ball's weight, for a shaft without load in a preloaded
-    /// bearing.
-    pub(super) fn force_scale(&self) -> f64 {
-        let [x, y] = self.condition.load;
-        x.hypot(y).max(self.setup.geometry.ball_mass() * 9.81)
-    }
-
-    pub(super) fn evaluate(&mut self, z: &DVector<f64>) -> Evaluation {
-        let balls = self.angles.len();
-        let (outer, stiffness) = self.outer_forces(z);
-        let mut gradient = DVector::zeros(2 + balls);
-        let mut hessian = DMatrix::zeros(2 + balls, 2 + balls);
-        gradient[0] = -self.condition.load[0];
-        gradient[1] = -self.condition.load[1];
-        let mass = self.setup.geometry.ball_mass();
-        let mut inner = vec![0.0; balls];
-        for j in 0..balls {
-            let (sin, cos) = self.angles[j].sin_cos();
-            let s = z[2 + j];
-            let rho = self.races.inner_race.touching_radius + s;
-            let weight = mass * (self.setup.gravity[0] * cos + self.setup.gravity[1] * sin);
-            let spin = self.condition.cage_speed.powi(2);
-            gradient[2 + j] = outer[j].radial - weight - mass * spin * rho;
-            hessian[(2 + j, 2 + j)] -= mass * spin;
-            for k in 0..balls {
-                hessian[(2 + j, 2 + k)] += stiffness[(j, k)];
-            }
-            let contact = self.races.inner_contact(j, self.angles[j], s, [z[0], z[1]]);
-            inner[j] = contact.magnitude;
-            if contact.magnitude > 0.0 {
-                let place = [0, 1, 2 + j];
-                for a in 0..3 {
-                    gradient[place[a]] += contact.slope[a];
-                    for b in 0..3 {
-                        hessian[(place[a], place[b])] += contact.curvature[a][b];
-                    }
-                }
-            }
-        }
-        Evaluation { gradient, hessian, inner, outer }
     }
 
     /// Outer contact forces for given ball positions, and their derivatives [balls x balls] with
@@ -171,6 +122,57 @@ impl<'a> Problem<'a> {
             tangent.view_mut((2 * j, 2 * j), (2, 2)).copy_from_slice(&[rr, rt, rt, tt]);
         }
         tangent
+    }
+}
+
+impl Potential for Problem<'_> {
+    type Contacts = PlaneContacts;
+
+    fn evaluate(&mut self, z: &DVector<f64>) -> Evaluation<PlaneContacts> {
+        let balls = self.angles.len();
+        let (outer, stiffness) = self.outer_forces(z);
+        let mut gradient = DVector::zeros(2 + balls);
+        let mut hessian = DMatrix::zeros(2 + balls, 2 + balls);
+        gradient[0] = -self.condition.load[0];
+        gradient[1] = -self.condition.load[1];
+        let mass = self.setup.geometry.ball_mass();
+        let mut inner = vec![0.0; balls];
+        for j in 0..balls {
+            let (sin, cos) = self.angles[j].sin_cos();
+            let s = z[2 + j];
+            let rho = self.races.inner_race.touching_radius + s;
+            let weight = mass * (self.setup.gravity[0] * cos + self.setup.gravity[1] * sin);
+            let spin = self.condition.cage_speed.powi(2);
+            gradient[2 + j] = outer[j].radial - weight - mass * spin * rho;
+            hessian[(2 + j, 2 + j)] -= mass * spin;
+            for k in 0..balls {
+                hessian[(2 + j, 2 + k)] += stiffness[(j, k)];
+            }
+            let contact = self.races.inner_contact(j, self.angles[j], s, [z[0], z[1]]);
+            inner[j] = contact.magnitude;
+            if contact.magnitude > 0.0 {
+                let place = [0, 1, 2 + j];
+                for a in 0..3 {
+                    gradient[place[a]] += contact.slope[a];
+                    for b in 0..3 {
+                        hessian[(place[a], place[b])] += contact.curvature[a][b];
+                    }
+                }
+            }
+        }
+        Evaluation { gradient, hessian, contacts: PlaneContacts { inner, outer } }
+    }
+
+    /// Distance of a ball that touches the outer race from the bearing's centre, m.
+    fn touching_radius(&self) -> f64 {
+        self.races.inner_race.touching_radius
+    }
+
+    /// Force that others are measured by, N: the load, at least a ball's weight, for a shaft without load in a preloaded
+    /// bearing.
+    fn force_scale(&self) -> f64 {
+        let [x, y] = self.condition.load;
+        x.hypot(y).max(self.setup.geometry.ball_mass() * 9.81)
     }
 }
 

@@ -1,8 +1,7 @@
-//! Newton's method on the reduced potential: down to a minimum, or to the next point without slope.
+//! Newton's method on a potential of contacts: down to a minimum, or to the next point without slope.
 
-use super::problem::{Evaluation, Problem};
 use crate::system::SystemError;
-use nalgebra::{DVector, Dyn, SymmetricEigen};
+use nalgebra::{DMatrix, DVector, Dyn, SymmetricEigen};
 
 type Eigen = SymmetricEigen<f64, Dyn>;
 
@@ -26,16 +25,41 @@ const ROUND_OFF: f64 = 4.0 * f64::EPSILON;
 
 /// Curvature below which a direction counts as held by nothing, N/m: that of a ball between the races. The softest contact, of
 /// a ball under 1e-6 N, has 1e5 N/m.
-pub(super) const HELD: f64 = 0.1;
+pub(in crate::system) const HELD: f64 = 0.1;
 
 /// Halvings of a step: 2^-30 of the longest one is below round-off of a displacement.
 const HALVINGS: usize = 30;
 
+/// One evaluation of a potential.
+pub(in crate::system) struct Evaluation<C> {
+    /// Force out of balance on each coordinate, N.
+    pub gradient: DVector<f64>,
+    /// N/m.
+    pub hessian: DMatrix<f64>,
+    /// What the contacts carry.
+    pub contacts: C,
+}
+
+/// A potential over lengths that contacts hold.
+pub(in crate::system) trait Potential {
+    /// What the contacts carry.
+    type Contacts;
+
+    /// Slope and curvature at `z`.
+    fn evaluate(&mut self, z: &DVector<f64>) -> Evaluation<Self::Contacts>;
+
+    /// Force that others are measured by, N.
+    fn force_scale(&self) -> f64;
+
+    /// Radius at which the balls stand, m.
+    fn touching_radius(&self) -> f64;
+}
+
 /// Where a search ended.
-pub(super) struct Found {
+pub(in crate::system) struct Found<C> {
     /// Shaft relative to the centre that its position is measured from, then the balls' displacements, m.
     pub z: DVector<f64>,
-    pub evaluation: Evaluation,
+    pub evaluation: Evaluation<C>,
     pub iterations: usize,
     /// Smallest curvature of the potential among directions that a contact holds, N/m.
     pub least_curvature: f64,
@@ -43,13 +67,14 @@ pub(super) struct Found {
     pub directions_down: usize,
 }
 
-impl Problem<'_> {
+/// Newton's method on any of them.
+pub(in crate::system) trait Search: Potential {
     /// Walks downhill from `z` to a minimum, where nothing is out of balance but a direction curves downwards, along it; or, not
     /// downhill, to the next point without slope, a saddle as well as a minimum.
     ///
     /// # Errors
     /// [`SystemError::NoEquilibrium`].
-    pub(super) fn search(&mut self, mut z: DVector<f64>, downhill: bool) -> Result<Found, SystemError> {
+    fn search(&mut self, mut z: DVector<f64>, downhill: bool) -> Result<Found<Self::Contacts>, SystemError> {
         let mut evaluation = self.evaluate(&z);
         let (mut iterations, mut before) = (0, f64::INFINITY);
         loop {
@@ -89,7 +114,12 @@ impl Problem<'_> {
     }
 
     /// Goes along `step`, shortened until the force out of balance falls, as it does at first along Newton's direction.
-    fn settle(&mut self, z: &mut DVector<f64>, mut step: DVector<f64>, mut evaluation: Evaluation) -> Evaluation {
+    fn settle(
+        &mut self,
+        z: &mut DVector<f64>,
+        mut step: DVector<f64>,
+        mut evaluation: Evaluation<Self::Contacts>,
+    ) -> Evaluation<Self::Contacts> {
         let size = evaluation.gradient.norm();
         for _ in 0..HALVINGS {
             evaluation = self.evaluate(&(&*z + &step));
@@ -108,7 +138,7 @@ impl Problem<'_> {
     }
 
     /// Whether no force is out of balance, or no more than round-off that the last step did not halve from `before` (N).
-    fn balanced(&self, evaluation: &Evaluation, before: f64) -> bool {
+    fn balanced(&self, evaluation: &Evaluation<Self::Contacts>, before: f64) -> bool {
         let most = evaluation.gradient.amax();
         let round_off = ROUND_OFF * self.touching_radius() * evaluation.hessian.amax();
         most <= FORCE_TOLERANCE * self.force_scale() || (most <= round_off && most > 0.5 * before)
@@ -116,7 +146,12 @@ impl Problem<'_> {
 
     /// Goes along `step`, shortened until the potential's slope along it says that the minimum was
     /// not overrun by more than half.
-    fn walk(&mut self, z: &mut DVector<f64>, mut step: DVector<f64>, before: &Evaluation) -> Evaluation {
+    fn walk(
+        &mut self,
+        z: &mut DVector<f64>,
+        mut step: DVector<f64>,
+        before: &Evaluation<Self::Contacts>,
+    ) -> Evaluation<Self::Contacts> {
         let slope = before.gradient.dot(&step).abs();
         for _ in 0..HALVINGS {
             let trial = &*z + &step;
@@ -133,6 +168,8 @@ impl Problem<'_> {
         self.evaluate(z)
     }
 }
+
+impl<P: Potential> Search for P {}
 
 /// Newton's step with the curvatures as `used` makes them, at most so far (m) along directions that contacts hold, which is the
 /// limit of any coordinate too, and along the others: a ball that nothing holds crosses the clearance in such steps, however little

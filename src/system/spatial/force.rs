@@ -1,0 +1,313 @@
+//! The force on modes, shaft and balls at a state: all that is evaluated in every step. No allocation.
+//!
+//! ```text
+//! outer   d = (u_r - W, u_z - V)                      W, V: displacement of the groove's centre by the structure
+//! inner   p = R^T (b - c),  d = (|p_xy| - rho_i, p_z - z_0)
+//! shaft   Id a'' = M_a - Ip Omega b',  Id b'' = M_b + Ip Omega a'
+//! ```
+//!
+//! The shaft's driving torque follows its axis, so that a change of speed tilts nothing.
+
+use super::balls::{BallGroup, BearingBalls};
+use super::pose::Pose;
+use super::system::{SHAFT, SpatialSystem, Work};
+use crate::bearing::RotationState;
+use crate::numerics::lanes::{self, LANES, Lanes, each, positive, total};
+use crate::system::raceway::reduced_turn;
+use crate::system::turning::directions;
+use multiversion::multiversion;
+use nalgebra::{Matrix3, Vector3};
+use std::f64::consts::TAU;
+
+/// Sums over a bearing's balls: force on the inner ring along x, y, z, and moment about its centre.
+type OnRing = [f64; 6];
+
+/// Where a bearing's inner ring is and how it moves.
+pub(super) struct InnerRing {
+    /// m
+    pub centre: Vector3<f64>,
+    pub rotation: Matrix3<f64>,
+    /// m/s
+    pub velocity: Vector3<f64>,
+    /// Of the tilt, rad/s.
+    pub turning: Vector3<f64>,
+    /// From the shaft's centre of mass, m.
+    pub arm: Vector3<f64>,
+}
+
+impl InnerRing {
+    /// At a place with an offset of the outer ring (m), for velocities of the shaft.
+    #[inline(always)]
+    pub fn new(pose: &Pose, [place, offset]: [f64; 2], v: &[f64]) -> Self {
+        let [arm, moved] = pose.arm(place);
+        let turning = pose.angular_velocity([v[3], v[4]]);
+        let velocity = Vector3::new(v[0], v[1], v[2]) + turning.cross(&arm);
+        let centre = pose.centre + moved - Vector3::new(0.0, 0.0, offset);
+        Self { centre, rotation: pose.rotation, velocity, turning, arm }
+    }
+}
+
+#[multiversion(targets("x86_64+avx2", "aarch64+neon"), dispatcher = "direct")]
+pub(super) fn evaluate(system: &mut SpatialSystem, t: f64, y: &[f64], v: &[f64], g: &mut [f64]) {
+    let modes = system.modes;
+    let shaft = system.setup.bearings[0].cage.shaft();
+    let shaft = shaft.rotation.at_from(&mut system.shaft_cursor, t);
+    let SpatialSystem { work, bearings, setup, gravity, .. } = system;
+    let damped = setup.bearings.iter().any(|own| own.contact_damping > 0.0);
+    lanes::set(&mut work.amplitudes, &y[..modes]);
+    if damped {
+        lanes::set(&mut work.velocities, &v[..modes]);
+    }
+    work.modal_force.copy_from_slice(gravity);
+    let pose = Pose::new(&y[modes..]);
+    let mut load = setup.shaft_load(&pose, t);
+    let mut moment = Vector3::zeros();
+    let mut first = modes + SHAFT;
+    for (bearing, own) in bearings.iter_mut().zip(&setup.bearings) {
+        let cage = own.cage.rotation.at_from(&mut bearing.cursor, t);
+        let ring = InnerRing::new(&pose, [own.place, own.offset], &v[modes..]);
+        let last = first + 2 * bearing.count;
+        bearing.take(&y[first..last], &v[first..last], own.cage.ball_angle(cage.angle, 0), cage.speed);
+        bearing.meet_outer(work, damped);
+        let on_ring = bearing.meet_inner(&ring);
+        bearing.add_to_modes(work);
+        bearing.ball_forces(setup.gravity, &cage, &mut g[first..last]);
+        let force = Vector3::new(on_ring[0], on_ring[1], on_ring[2]);
+        moment += Vector3::new(on_ring[3], on_ring[4], on_ring[5]) + ring.arm.cross(&force);
+        load[0] += force.x;
+        load[1] += force.y;
+        load[2] += force.z;
+        first = last;
+    }
+    lanes::get(&work.modal_force, &mut g[..modes]);
+    moment += system.add_unbalance(&shaft, &pose, &mut load);
+    let of_contacts = pose.on_tilts(moment);
+    let own = &system.setup.shaft;
+    let (mass, transverse, spin) = (own.mass, own.transverse_inertia, own.polar_inertia * shaft.speed);
+    let [a, b] = [v[modes + 3], v[modes + 4]];
+    if let [x, y, z, p, q, ..] = &mut g[modes..] {
+        *x = load[0] / mass;
+        *y = load[1] / mass;
+        *z = load[2] / mass;
+        *p = (load[3] + of_contacts[0] - spin * b) / transverse;
+        *q = (load[4] + of_contacts[1] + spin * a) / transverse;
+    }
+}
+
+impl SpatialSystem {
+    /// Rotating unbalances, centrifugal and by the shaft's angular acceleration; gives their moment, N m.
+    #[inline(always)]
+    fn add_unbalance(&mut self, shaft: &RotationState, pose: &Pose, load: &mut [f64; 5]) -> Vector3<f64> {
+        let [[cos, sin], _] = directions([reduced_turn(shaft.angle), 0.0]);
+        self.work.shaft_direction = [cos, sin];
+        let mut moment = Vector3::zeros();
+        for unbalance in &self.setup.shaft.unbalances {
+            let [x, y] = unbalance_force(unbalance, [cos, sin], shaft);
+            load[0] += x;
+            load[1] += y;
+            moment += pose.arm(unbalance.place)[0].cross(&Vector3::new(x, y, 0.0));
+        }
+        moment
+    }
+}
+
+/// Force of an unbalance along x and y when the shaft's angle has these cosine and sine, N.
+#[inline(always)]
+pub(super) fn unbalance_force(
+    unbalance: &super::setup::Unbalance,
+    [cos, sin]: [f64; 2],
+    shaft: &RotationState,
+) -> [f64; 2] {
+    let (own_sin, own_cos) = unbalance.angle.sin_cos();
+    let (c, s) = (cos * own_cos - sin * own_sin, sin * own_cos + cos * own_sin);
+    let centrifugal = unbalance.moment * shaft.speed * shaft.speed;
+    let tangential = unbalance.moment * shaft.acceleration;
+    [centrifugal * c + tangential * s, centrifugal * s - tangential * c]
+}
+
+impl BearingBalls {
+    /// Takes the balls' coordinates and velocities, and places the balls.
+    #[inline(always)]
+    fn take(&mut self, y: &[f64], v: &[f64], angle: f64, cage_speed: f64) {
+        self.cage_speed = cage_speed;
+        self.turn = reduced_turn(angle);
+        let (turn, count) = (self.turn, self.count);
+        let [[cos, sin], _] = directions([turn, 0.0]);
+        let both = |values: &[f64], group: usize| {
+            let start = group * LANES;
+            let end = (start + LANES).min(count);
+            [lanes::from(&values[start..end]), lanes::from(&values[count + start..count + end])]
+        };
+        for (number, group) in self.groups.iter_mut().enumerate() {
+            group.place = both(y, number);
+            group.rate = both(v, number);
+            let [c, s] = &group.spacing;
+            group.direction = [each(|l| cos * c[l] - sin * s[l]), each(|l| sin * c[l] + cos * s[l])];
+            let place = each(|l| turn + group.spacing_turns[l]);
+            group.turn = each(|l| if place[l] < 1.0 { place[l] } else { place[l] - 1.0 });
+        }
+    }
+
+    /// Contacts with the outer race, which the kept modes move.
+    #[inline(always)]
+    fn meet_outer(&mut self, work: &mut Work, damped: bool) {
+        let Self { groups, rows, outer, count, cage_speed, .. } = self;
+        for (number, group) in groups.iter_mut().enumerate() {
+            let places = [rows[0].locate(&group.turn), rows[1].locate(&group.turn)];
+            let balls = LANES.min(*count - number * LANES);
+            for (component, table) in rows.iter().enumerate() {
+                for lane in 0..balls {
+                    let own = group.rows[component].iter_mut().map(|rows| &mut rows[lane]);
+                    group.moved[component][lane] =
+                        table.values_into(places[component].get(lane), &work.amplitudes, own);
+                }
+            }
+            let d = [0, 1].map(|k| each(|l| group.place[k][l] - group.moved[k][l]));
+            group.outer = outer.felt([&d[0], &d[1]], &group.oversize);
+            group.loads[1] = group.outer.load;
+            group.on_outer = group.outer.gradient;
+            if damped {
+                let mut race = [[0.0; LANES]; 2];
+                let scale = *cage_speed / TAU;
+                for (component, table) in rows.iter().enumerate() {
+                    for lane in 0..balls {
+                        table.slopes_into(places[component].get(lane), scale, &mut work.scratch_row);
+                        let own = group.rows[component].iter().map(|rows| &rows[lane]);
+                        race[component][lane] =
+                            lanes::dot(own, &work.velocities) + lanes::dot(work.scratch_row.iter(), &work.amplitudes);
+                    }
+                }
+                let normal = group.outer.normal;
+                group.approach[1] = each(|l| {
+                    normal[0][l] * (group.rate[0][l] - race[0][l]) + normal[1][l] * (group.rate[1][l] - race[1][l])
+                });
+                let (felt, approach) = (&group.outer, &group.approach[1]);
+                let damping = damped_part(felt.load, approach, outer.damping);
+                group.loads[1] = each(|l| felt.load[l] + damping[l]);
+                group.on_outer = [0, 1].map(|k| each(|l| felt.gradient[k][l] + damping[l] * felt.normal[k][l]));
+            }
+            // friction of the gyroscopic moment, (n_z, -n_r) on the ball
+            let factor = self.gyroscopic * *cage_speed * *cage_speed * self.friction[1];
+            if factor != 0.0 {
+                let normal = group.outer.normal;
+                let friction = each(|l| if group.outer.penetration[l] > 0.0 { factor * normal[1][l] } else { 0.0 });
+                group.on_outer[0] = each(|l| group.on_outer[0][l] - friction[l] * normal[1][l]);
+                group.on_outer[1] = each(|l| group.on_outer[1][l] + friction[l] * normal[0][l]);
+            }
+        }
+    }
+
+    /// Contacts with the inner race: what they do to the ring.
+    #[inline(always)]
+    fn meet_inner(&mut self, ring: &InnerRing) -> OnRing {
+        let r = &ring.rotation;
+        let [cx, cy, cz] = [ring.centre.x, ring.centre.y, ring.centre.z];
+        let [base, gap, damping, speed] = [self.base, self.gap[0], self.inner.damping, self.cage_speed];
+        let friction = self.gyroscopic * speed * speed * self.friction[0];
+        let mut sums = [[0.0; LANES]; 6];
+        for group in &mut self.groups {
+            let ([cos, sin], [radial, axial]) = (&group.direction, &group.place);
+            let rho = each(|l| base + radial[l]);
+            let b = [each(|l| rho[l] * cos[l] - cx), each(|l| rho[l] * sin[l] - cy), each(|l| axial[l] - cz)];
+            // p = R^T b
+            let p = [0, 1, 2].map(|i| each(|l| r[(0, i)] * b[0][l] + r[(1, i)] * b[1][l] + r[(2, i)] * b[2][l]));
+            let across = each(|l| (p[0][l] * p[0][l] + p[1][l] * p[1][l]).sqrt());
+            let inverse = each(|l| 1.0 / across[l]);
+            // |p| - rho without the difference of large numbers: |p|^2 - base^2 over their sum would gain nothing beside sqrt
+            let d = [each(|l| (across[l] - base) - gap), each(|l| p[2][l] - self.gap[1])];
+            group.inner = self.inner.felt([&d[0], &d[1]], &group.oversize);
+            let felt = group.inner;
+            group.loads[0] = felt.load;
+            let mut gradient = felt.gradient;
+            let out = [each(|l| p[0][l] * inverse[l]), each(|l| p[1][l] * inverse[l])];
+            if damping > 0.0 {
+                let rates = inner_rates(group, ring, speed, &rho, &b);
+                let moved = [0, 1, 2]
+                    .map(|i| each(|l| r[(0, i)] * rates[0][l] + r[(1, i)] * rates[1][l] + r[(2, i)] * rates[2][l]));
+                group.approach[0] = each(|l| {
+                    felt.normal[0][l] * (out[0][l] * moved[0][l] + out[1][l] * moved[1][l])
+                        + felt.normal[1][l] * moved[2][l]
+                });
+                let part = damped_part(felt.load, &group.approach[0], damping);
+                group.loads[0] = each(|l| felt.load[l] + part[l]);
+                gradient = [0, 1].map(|k| each(|l| gradient[k][l] + part[l] * felt.normal[k][l]));
+            }
+            if friction != 0.0 {
+                // as at the outer race, with the sine of the outer angle: (-sin, cos) of the inner contact on the ball
+                let sine = group.outer.normal[1];
+                let own = each(|l| if felt.penetration[l] > 0.0 { friction * sine[l] } else { 0.0 });
+                gradient[0] = each(|l| gradient[0][l] - own[l] * felt.normal[1][l]);
+                gradient[1] = each(|l| gradient[1][l] + own[l] * felt.normal[0][l]);
+            }
+            let in_ring = [each(|l| gradient[0][l] * out[0][l]), each(|l| gradient[0][l] * out[1][l]), gradient[1]];
+            let force = [0, 1, 2].map(|i| {
+                each(|l| -(r[(i, 0)] * in_ring[0][l] + r[(i, 1)] * in_ring[1][l] + r[(i, 2)] * in_ring[2][l]))
+            });
+            group.from_inner = force;
+            for (k, sum) in sums.iter_mut().enumerate() {
+                let part = match k {
+                    0..=2 => force[k],
+                    _ => {
+                        let (i, j) = ((k + 1) % 3, (k + 2) % 3);
+                        each(|l| b[i][l] * force[j][l] - b[j][l] * force[i][l])
+                    }
+                };
+                *sum = each(|l| sum[l] - part[l]);
+            }
+        }
+        sums.map(|sum| total(&sum))
+    }
+
+    /// What the outer contacts do to the kept modes.
+    #[inline(always)]
+    fn add_to_modes(&self, work: &mut Work) {
+        for group in &self.groups {
+            for (forces, rows) in group.on_outer.iter().zip(&group.rows) {
+                if forces.iter().all(|&force| force == 0.0) {
+                    continue;
+                }
+                for (force, [a, b, c, d]) in work.modal_force.iter_mut().zip(rows) {
+                    *force = each(|l| {
+                        (force[l] + (forces[0] * a[l] + forces[1] * b[l])) + (forces[2] * c[l] + forces[3] * d[l])
+                    });
+                }
+            }
+        }
+    }
+
+    /// Contacts, weight and centrifugal load on the balls.
+    #[inline(always)]
+    fn ball_forces(&self, [gx, gy, gz]: [f64; 3], cage: &RotationState, g: &mut [f64]) {
+        let (mobility, square) = (self.mobility, cage.speed * cage.speed);
+        let (radial, axial) = g.split_at_mut(self.count);
+        let out = radial.chunks_mut(LANES).zip(axial.chunks_mut(LANES));
+        for (group, (radial, axial)) in self.groups.iter().zip(out) {
+            let [cos, sin] = &group.direction;
+            let ([x, y, z], [outer_r, outer_z]) = (&group.from_inner, &group.on_outer);
+            let force = each(|l| {
+                let contacts = (x[l] * cos[l] + y[l] * sin[l]) - outer_r[l];
+                (self.base + group.place[0][l]) * square + contacts * mobility + (gx * cos[l] + gy * sin[l])
+            });
+            lanes::put(&force, radial);
+            lanes::put(&each(|l| (z[l] - outer_z[l]) * mobility + gz), axial);
+        }
+    }
+}
+
+/// Hunt-Crossley's part of a contact force, never so large that it pulls, N.
+#[inline(always)]
+fn damped_part(load: Lanes, approach: &Lanes, damping: f64) -> Lanes {
+    each(|l| load[l] * (positive(1.0 + damping * approach[l]) - 1.0))
+}
+
+/// Velocity of the balls against the inner ring's material points there, its spin left out, m/s.
+#[inline(always)]
+fn inner_rates(group: &BallGroup, ring: &InnerRing, speed: f64, rho: &Lanes, b: &[Lanes; 3]) -> [Lanes; 3] {
+    let ([cos, sin], [radial, axial]) = (&group.direction, &group.rate);
+    let (v, w) = (&ring.velocity, &ring.turning);
+    [
+        each(|l| radial[l] * cos[l] - rho[l] * speed * sin[l] - v.x - (w.y * b[2][l] - w.z * b[1][l])),
+        each(|l| radial[l] * sin[l] + rho[l] * speed * cos[l] - v.y - (w.z * b[0][l] - w.x * b[2][l])),
+        each(|l| axial[l] - v.z - (w.x * b[1][l] - w.y * b[0][l])),
+    ]
+}

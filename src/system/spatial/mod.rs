@@ -1,0 +1,20 @@
+//! Several bearings that carry axial load and tilt, on one rigid shaft, in a structure with a ring each.
+//!
+//! [`SpatialSetup`] and a [`Structure`](super::Structure) make a [`SpatialSystem`], which a time integrator steps. The ball bearing
+//! in its plane has a system of its own, [`CoupledSystem`](super::CoupledSystem), to the same equations without the axial
+//! coordinates. Read `force.rs` first.
+
+mod balls;
+mod energy;
+mod equilibrium;
+mod force;
+mod groove_lanes;
+mod pose;
+mod setup;
+mod system;
+#[cfg(test)]
+mod tests;
+
+pub use equilibrium::{SpatialBallLoad, SpatialCondition, SpatialEquilibrium};
+pub use setup::{BearingInPlace, SpatialLoad, SpatialSetup, SpatialShaft, Unbalance};
+pub use system::SpatialSystem;

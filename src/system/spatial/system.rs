@@ -1,0 +1,184 @@
+//! Structure, rigid shaft and the balls of several bearings as one system of second order.
+
+use super::balls::BearingBalls;
+use super::setup::SpatialSetup;
+use crate::bearing::RotationCursor;
+use crate::fe::reduction::frf::ModalDamping;
+use crate::numerics::lanes::{self, Lanes};
+use super::equilibrium::SpatialEquilibrium;
+use crate::numerics::ode::{Divergence, LinearCoordinate, SecondOrderSystem, State, all_finite};
+use crate::system::{ModeSelection, Structure, StructureModes, SystemError};
+
+/// Coordinates of the shaft.
+pub(super) const SHAFT: usize = 5;
+
+/// Structure by its modes, shaft and balls by their places.
+///
+/// Coordinates: mode amplitudes (kg^1/2 m); x, y, z of the shaft's centre of mass (m) and its tilts about x and y (rad); then
+/// bearing by bearing the radial places of its balls and their axial places (m), both from the outer groove's centre at rest. The kept
+/// modes have no static residual: what the others give to the contacts is left out.
+#[derive(Debug, Clone)]
+pub struct SpatialSystem {
+    pub(super) setup: SpatialSetup,
+    pub(super) linear: Vec<LinearCoordinate>,
+    pub(super) modes: usize,
+    /// Work of the weight on each kept mode, N kg^-1/2.
+    pub(super) gravity: Vec<Lanes>,
+    pub(super) bearings: Vec<BearingBalls>,
+    /// Sensor rows over kept modes.
+    pub(super) sensors: Vec<(String, Vec<f64>)>,
+    pub(super) shaft_cursor: RotationCursor,
+    pub(super) work: Work,
+}
+
+/// Buffers of the last evaluation.
+#[derive(Debug, Clone, Default)]
+pub(super) struct Work {
+    pub amplitudes: Vec<Lanes>,
+    pub velocities: Vec<Lanes>,
+    pub modal_force: Vec<Lanes>,
+    pub scratch_row: Vec<Lanes>,
+    /// Cosine and sine of the shaft's angle.
+    pub shaft_direction: [f64; 2],
+}
+
+impl SpatialSystem {
+    /// Couples a structure, whose ring k is that of bearing k, and a shaft in its bearings.
+    ///
+    /// # Errors
+    /// [`SystemError::NoModesKept`]; [`SystemError::Damping`]; [`SystemError::Refused`] for rings in their plane;
+    /// [`SystemError::OtherSize`] for another number of rings than bearings.
+    pub fn new(
+        structure: &Structure,
+        modes: &StructureModes,
+        setup: SpatialSetup,
+        selection: ModeSelection,
+        damping: &ModalDamping,
+    ) -> Result<Self, SystemError> {
+        let seats = structure.rings().seats();
+        if seats.len() != setup.bearings.len() || seats.is_empty() {
+            let (rings, bearings) = (seats.len(), setup.bearings.len());
+            return Err(SystemError::OtherSize(format!(
+                "{rings} rings and {bearings} bearings: expected one ring each"
+            )));
+        }
+        if !seats.iter().all(|seat| seat.ring.is_in_space()) {
+            return Err(SystemError::Refused(
+                "a bearing in space needs a ring in space: give a solid housing, or forces in the bearing's plane alone",
+            ));
+        }
+        let count = selection.count(modes);
+        if count == 0 {
+            return Err(SystemError::NoModesKept { lowest_hz: modes.frequency_hz(0) });
+        }
+        let rates = damping.rates(&modes.squared_frequencies)?;
+        let structural = modes.squared_frequencies[..count].iter().zip(rates);
+        let structural =
+            structural.map(|(square, damping)| LinearCoordinate { squared_frequency: square.max(0.0), damping });
+        let free = LinearCoordinate { squared_frequency: 0.0, damping: 0.0 };
+        let linear = structural.chain(std::iter::repeat_n(free, SHAFT + 2 * setup.balls())).collect();
+        let over_modes = |row: &[f64]| -> Vec<f64> { (0..count).map(|mode| modes.participation(mode, row)).collect() };
+        let bearings = setup.bearings.iter().zip(seats);
+        let bearings = bearings.map(|(own, seat)| BearingBalls::new(own, seat, modes, count)).collect();
+        let of_modes = || lanes::column(count, 0.0);
+        Ok(Self {
+            linear,
+            modes: count,
+            gravity: lanes::filled(&over_modes(structure.gravity()), 0.0),
+            bearings,
+            sensors: structure.sensors().iter().map(|sensor| (sensor.name.clone(), over_modes(&sensor.row))).collect(),
+            shaft_cursor: RotationCursor::default(),
+            work: Work {
+                amplitudes: of_modes(),
+                velocities: of_modes(),
+                modal_force: of_modes(),
+                scratch_row: of_modes(),
+                shaft_direction: [1.0, 0.0],
+            },
+            setup,
+        })
+    }
+
+    /// Number of kept modes.
+    pub fn modes(&self) -> usize {
+        self.modes
+    }
+
+    /// The shaft and its bearings.
+    pub fn setup(&self) -> &SpatialSetup {
+        &self.setup
+    }
+
+    /// First coordinate of the balls of each bearing, with their number.
+    pub(super) fn ball_ranges(&self) -> impl Iterator<Item = (usize, usize)> + '_ {
+        let first = self.modes + SHAFT;
+        self.bearings.iter().scan(first, |next, bearing| {
+            let own = *next;
+            *next += 2 * bearing.count;
+            Some((own, bearing.count))
+        })
+    }
+}
+
+impl SecondOrderSystem for SpatialSystem {
+    fn linear(&self) -> &[LinearCoordinate] {
+        &self.linear
+    }
+
+    fn force_into(&mut self, t: f64, y: &[f64], v: &[f64], g: &mut [f64]) {
+        super::force::evaluate(self, t, y, v, g);
+    }
+
+    fn next_change(&self, t: f64) -> f64 {
+        let loads = self.setup.shaft.loads.iter().map(|load| load.profile.next_knot(t));
+        let cages = self.setup.bearings.iter().map(|bearing| bearing.cage.rotation.next_knot(t));
+        loads.chain(cages).fold(f64::INFINITY, f64::min)
+    }
+
+    fn check(&self, y: &[f64], v: &[f64]) -> Result<(), Divergence> {
+        if !(all_finite(y) && all_finite(v)) {
+            return Err(Divergence::NotFinite);
+        }
+        // beyond half a ball's radius neither Hertz theory nor the geometry holds
+        let balls = self.setup.bearings.iter().map(|own| 0.5 * own.bearing.geometry().ball_radius());
+        let limit = balls.fold(f64::INFINITY, f64::min);
+        let tilt = 0.1;
+        for (place, (what, limit, unit)) in [
+            ("shaft displacement x", limit, "m"),
+            ("shaft displacement y", limit, "m"),
+            ("shaft displacement z", limit, "m"),
+            ("tilt of the shaft about x", tilt, "rad"),
+            ("tilt of the shaft about y", tilt, "rad"),
+        ]
+        .into_iter()
+        .enumerate()
+        {
+            let value = y[self.modes + place];
+            if value.abs() > limit {
+                return Err(Divergence::OutOfRange { what: what.to_owned(), value, limit, unit });
+            }
+        }
+        for ((first, count), own) in self.ball_ranges().zip(&self.setup.bearings) {
+            let places = y[first..first + 2 * count].iter();
+            if let Some((place, &value)) = places.enumerate().find(|(_, value)| value.abs() > limit) {
+                let way = if place < count { "radial" } else { "axial" };
+                let what = format!("{way} place of ball {} of bearing {}", place % count + 1, own.label);
+                return Err(Divergence::OutOfRange { what, value, limit, unit: "m" });
+            }
+        }
+        Ok(())
+    }
+}
+
+impl SpatialSystem {
+    /// State at rest in an equilibrium, the cages held at their angles at `t` (s).
+    pub fn state_at(&self, t: f64, equilibrium: &SpatialEquilibrium, modes: &StructureModes) -> State {
+        let amplitudes = (0..self.modes)
+            .map(|mode| modes.participation(mode, &equilibrium.structure_load) / modes.squared_frequencies[mode]);
+        let mut y: Vec<f64> = amplitudes.chain(equilibrium.shaft).collect();
+        for balls in &equilibrium.bearings {
+            y.extend([0, 1].iter().flat_map(|&way| balls.iter().map(move |ball| ball.place[way])));
+        }
+        State { t, v: vec![0.0; y.len()], y }
+    }
+}
