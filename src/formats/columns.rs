@@ -10,7 +10,7 @@ use std::path::{Path, PathBuf};
 
 use super::FormatError;
 use crate::files::{FileError, hex, no_link, sha256};
-use crate::system::{Column, RunRecord};
+use crate::system::{Column, RecordLayout, RunRecord};
 use sha2::{Digest, Sha256};
 
 /// Bytes a number.
@@ -23,10 +23,8 @@ const PIECE: usize = 1 << 13;
 #[derive(Debug)]
 pub struct ColumnFiles {
     folder: PathBuf,
-    /// Names of the sensors.
-    pub(crate) sensors: Vec<String>,
-    /// Number of balls.
-    pub(crate) balls: usize,
+    /// What the columns are of.
+    pub(crate) layout: RecordLayout,
     rows: usize,
     files: Vec<(Column, File)>,
     /// Of each file's rows.
@@ -43,6 +41,12 @@ pub(crate) fn column_name(column: Column) -> Result<&'static str, usize> {
         Column::BallRadius => Ok("ball_radius"),
         Column::OuterForce => Ok("outer_force"),
         Column::InnerForce => Ok("inner_force"),
+        Column::ShaftZ => Ok("shaft_z"),
+        Column::TiltX => Ok("tilt_x"),
+        Column::TiltY => Ok("tilt_y"),
+        Column::BallAxial => Ok("ball_axial"),
+        Column::OuterAngle => Ok("outer_angle"),
+        Column::InnerAngle => Ok("inner_angle"),
     }
 }
 
@@ -57,31 +61,25 @@ impl ColumnFiles {
     ///
     /// # Errors
     /// [`FormatError::File`].
-    pub(crate) fn create(folder: &Path, sensors: Vec<String>, balls: usize) -> Result<Self, FormatError> {
-        Self::open(folder, sensors, balls, 0, OpenOptions::new().create(true))
+    pub(crate) fn create(folder: &Path, layout: RecordLayout) -> Result<Self, FormatError> {
+        Self::open(folder, layout, 0, OpenOptions::new().create(true))
     }
 
     /// Goes on with columns after so many rows; what is beyond them is cut off.
     ///
     /// # Errors
     /// [`FormatError::File`], [`FormatError::CutColumn`] if a column has fewer.
-    pub(crate) fn resume(folder: &Path, sensors: Vec<String>, balls: usize, rows: usize) -> Result<Self, FormatError> {
-        Self::open(folder, sensors, balls, rows, &mut OpenOptions::new())
+    pub(crate) fn resume(folder: &Path, layout: RecordLayout, rows: usize) -> Result<Self, FormatError> {
+        Self::open(folder, layout, rows, &mut OpenOptions::new())
     }
 
-    fn open(
-        folder: &Path,
-        sensors: Vec<String>,
-        balls: usize,
-        rows: usize,
-        options: &mut OpenOptions,
-    ) -> Result<Self, FormatError> {
+    fn open(folder: &Path, layout: RecordLayout, rows: usize, options: &mut OpenOptions) -> Result<Self, FormatError> {
         let (mut files, mut hashers) = (Vec::new(), Vec::new());
-        for column in Column::all(sensors.len()) {
+        for column in layout.columns() {
             let path = path_of(folder, column);
             let failed = |source| FileError::Open { path: path.clone(), source };
             no_link(&path).map_err(failed)?;
-            let expected = (rows * column.width(balls) * BYTES) as u64;
+            let expected = (rows * column.width(layout.balls) * BYTES) as u64;
             let mut file = match options.read(true).write(true).open(&path) {
                 Err(error) if rows > 0 && error.kind() == ErrorKind::NotFound => {
                     return Err(FormatError::CutColumn { path, expected, found: 0 });
@@ -97,7 +95,7 @@ impl ColumnFiles {
             file.seek(SeekFrom::End(0)).map_err(failed)?;
             files.push((column, file));
         }
-        Ok(Self { folder: folder.to_owned(), sensors, balls, rows, files, hashers })
+        Ok(Self { folder: folder.to_owned(), layout, rows, files, hashers })
     }
 
     /// Rows written.
@@ -120,7 +118,7 @@ impl ColumnFiles {
         let places = 0..rows.rows();
         let mut bytes = Vec::new();
         for ((column, file), hasher) in self.files.iter_mut().zip(&mut self.hashers) {
-            let values = &rows.column(*column)[column.places(&places, self.balls)];
+            let values = &rows.column(*column)[column.places(&places, self.layout.balls)];
             bytes.clear();
             bytes.extend(values.iter().flat_map(|value| value.to_le_bytes()));
             hasher.update(&bytes);
@@ -157,7 +155,7 @@ impl ColumnFiles {
         let path = path_of(&self.folder, column);
         let failed = |source| FormatError::from(FileError::read(&path)(source));
         let rows = rows.start.min(self.rows)..rows.end.min(self.rows);
-        let places = column.places(&rows, self.balls);
+        let places = column.places(&rows, self.layout.balls);
         let mut file = File::open(&path).map_err(failed)?;
         let first = (places.start * BYTES) as u64;
         file.seek(SeekFrom::Start(first)).map_err(failed)?;
@@ -180,7 +178,7 @@ mod tests {
 
     /// Rows from one number to another, each column told by its own offset.
     fn rows(range: Range<u32>) -> RunRecord {
-        let mut record = RunRecord::blank(["P1".to_owned(), "P2".to_owned()], 2);
+        let mut record = RunRecord::blank(layout());
         for row in range.map(f64::from) {
             record.time_s.push(row);
             record.shaft_x.push(row + 0.1);
@@ -197,8 +195,8 @@ mod tests {
     }
 
     fn read(files: &ColumnFiles, range: Range<usize>) -> RunRecord {
-        let mut record = RunRecord::blank(files.sensors.clone(), files.balls);
-        for column in Column::all(2) {
+        let mut record = RunRecord::blank(files.layout.clone());
+        for column in files.layout.columns() {
             let mut values = Vec::new();
             files
                 .read(column, range.clone(), |piece| {
@@ -214,19 +212,20 @@ mod tests {
                 Column::BallRadius => record.ball_radius = values,
                 Column::OuterForce => record.outer_force = values,
                 Column::InnerForce => record.inner_force = values,
+                other => panic!("{other:?}"),
             }
         }
         record
     }
 
-    fn names() -> Vec<String> {
-        vec!["P1".to_owned(), "P2".to_owned()]
+    fn layout() -> RecordLayout {
+        RecordLayout { sensors: vec!["P1".to_owned(), "P2".to_owned()], balls: 2, in_space: false }
     }
 
     #[test]
     fn rows_come_back_whole_or_in_part() {
         let folder = tempfile::tempdir().unwrap();
-        let mut files = ColumnFiles::create(folder.path(), names(), 2).unwrap();
+        let mut files = ColumnFiles::create(folder.path(), layout()).unwrap();
         // more than one piece
         let most = PIECE as u32 + 100;
         files.append(&rows(0..7)).unwrap();
@@ -238,23 +237,23 @@ mod tests {
         files.append(&rows(most..most + 3)).unwrap();
         assert_eq!(read(&files, most as usize - 2..most as usize + 9), rows(most - 2..most + 3));
         // another run begins anew
-        let anew = ColumnFiles::create(folder.path(), names(), 2).unwrap();
+        let anew = ColumnFiles::create(folder.path(), layout()).unwrap();
         assert_eq!(read(&anew, 0..10), rows(0..0));
     }
 
     #[test]
     fn rows_after_a_checkpoint_are_cut_and_missing_ones_refused() {
         let folder = tempfile::tempdir().unwrap();
-        let mut files = ColumnFiles::create(folder.path(), names(), 2).unwrap();
+        let mut files = ColumnFiles::create(folder.path(), layout()).unwrap();
         files.append(&rows(0..9)).unwrap();
         files.sync().unwrap();
         drop(files);
-        let mut files = ColumnFiles::resume(folder.path(), names(), 2, 6).unwrap();
+        let mut files = ColumnFiles::resume(folder.path(), layout(), 6).unwrap();
         files.append(&rows(6..8)).unwrap();
         assert_eq!(read(&files, 0..100), rows(0..8));
         let digest = files.digest();
         drop(files);
-        let again = || ColumnFiles::resume(folder.path(), names(), 2, 8).unwrap();
+        let again = || ColumnFiles::resume(folder.path(), layout(), 8).unwrap();
         assert_eq!(again().digest(), digest);
         let path = folder.path().join("sensor-1.f64");
         let mut bytes = std::fs::read(&path).unwrap();
@@ -263,7 +262,7 @@ mod tests {
         assert_ne!(again().digest(), digest);
         let files = again();
         drop(files);
-        let error = ColumnFiles::resume(folder.path(), names(), 2, 9).unwrap_err();
+        let error = ColumnFiles::resume(folder.path(), layout(), 9).unwrap_err();
         assert_eq!(
             error.to_string(),
             format!(
@@ -272,7 +271,7 @@ mod tests {
             )
         );
         std::fs::remove_file(folder.path().join("shaft_y.f64")).unwrap();
-        let error = ColumnFiles::resume(folder.path(), names(), 2, 3).unwrap_err();
+        let error = ColumnFiles::resume(folder.path(), layout(), 3).unwrap_err();
         assert!(matches!(error, FormatError::CutColumn { found: 0, .. }), "{error}");
     }
 }

@@ -1,15 +1,18 @@
 //! The coupled system in modal coordinates: kept modes of the structure, shaft, balls.
 
 use super::balls::Balls;
+use super::energy::Powers;
 use super::inner::InnerRace;
 use super::race::{Damage, RaceContact, RaceForce};
 use super::raceway::RacewayTable;
+use super::recorder::{RecordLayout, RunRecord};
 use super::residual::{Coupling, ResidualFlexibility};
+use super::simulated::Simulated;
 use super::{BallsInertia, BearingSetup, Equilibrium, Formulation, Structure, StructureModes, SystemError};
 use crate::bearing::{Race, RotationCursor};
 use crate::fe::reduction::frf::ModalDamping;
-use crate::numerics::lanes::{self, Lanes};
-use crate::numerics::ode::{LinearCoordinate, State};
+use crate::numerics::lanes::{self, Lanes, scalar_product};
+use crate::numerics::ode::{Instant, LinearCoordinate, State};
 
 /// A ball that is farther from the race than this (m) cannot be reached by the residual
 /// displacement that other balls cause: 1e-9 m/N under less than 100 N.
@@ -196,16 +199,6 @@ impl CoupledSystem {
         self.linear.iter().map(|coordinate| coordinate.squared_frequency).fold(0.0, f64::max)
     }
 
-    /// Whether the static residual of the modes left out is in use.
-    pub(crate) fn has_residual(&self) -> bool {
-        self.residual.is_some()
-    }
-
-    /// Names of the sensors.
-    pub(crate) fn sensor_names(&self) -> Vec<String> {
-        self.sensors.iter().map(|(name, _)| name.clone()).collect()
-    }
-
     /// The bearing.
     pub fn setup(&self) -> &BearingSetup {
         &self.setup
@@ -234,6 +227,50 @@ impl CoupledSystem {
         let y: Vec<f64> =
             amplitudes.chain(equilibrium.shaft).chain(balls.iter().map(|ball| ball.displacement)).collect();
         State { t, v: vec![0.0; y.len()], y }
+    }
+}
+
+impl Simulated for CoupledSystem {
+    fn layout(&self) -> RecordLayout {
+        let sensors = self.sensors.iter().map(|(name, _)| name.clone()).collect();
+        RecordLayout { sensors, balls: self.balls.count, in_space: false }
+    }
+
+    fn kept_modes(&self) -> usize {
+        self.modes
+    }
+
+    fn uses_residual(&self) -> bool {
+        self.residual.is_some()
+    }
+
+    fn sensor_displacement(&self, sensor: usize, y: &[f64]) -> f64 {
+        let modal = scalar_product(&self.sensors[sensor].1, &y[..self.modes]);
+        let forces = self.balls.all(|ball| &ball.outer_radial);
+        let residual = self.residual.as_ref().map_or(0.0, |residual| residual.at_sensor(sensor, forces));
+        modal + residual
+    }
+
+    fn record_into(&self, now: &Instant<'_>, record: &mut RunRecord) {
+        record.time_s.push(now.t);
+        record.shaft_x.push(now.y[self.modes]);
+        record.shaft_y.push(now.y[self.modes + 1]);
+        let touching = self.inner_race.touching_radius;
+        record.ball_radius.extend(self.balls.all(|ball| &ball.displacement).map(|s| touching + s));
+        record.outer_force.extend(self.balls.all(|ball| &ball.outer_magnitude));
+        record.inner_force.extend(self.balls.all(|ball| &ball.inner_force));
+    }
+
+    fn has_energy(&self) -> bool {
+        self.keeps_energy()
+    }
+
+    fn stored_energy(&self, now: &Instant<'_>) -> f64 {
+        self.energy_at(now)
+    }
+
+    fn find_powers(&self, now: &Instant<'_>, powers: &mut Powers) {
+        powers.find(self, now);
     }
 }
 

@@ -19,6 +19,7 @@ mod raceway;
 mod recorder;
 mod residual;
 mod resting;
+mod simulated;
 mod spatial;
 mod statics;
 mod structure;
@@ -26,11 +27,12 @@ mod turning;
 
 pub use bearing_setup::{BallsInertia, BearingSetup, FlatOnBall, Formulation, LoadProfile, Shaft};
 pub use coupled::{CoupledSystem, ModeSelection};
-pub use energy::{EnergyBalance, EnergyMeter};
+pub use energy::{EnergyBalance, EnergyMeter, Powers};
 pub use equilibrium::{BallLoad, Equilibrium, StaticCondition};
 pub use error::SystemError;
 pub use loaded::{LoadedMode, LoadedModes, LoadedPass, LoadedPoint, LoadedShapes};
-pub use recorder::{Column, Recorder, RunRecord};
+pub use recorder::{Column, RecordLayout, Recorder, RunRecord};
+pub use simulated::Simulated;
 pub use spatial::{
     BearingInPlace, SpatialBallLoad, SpatialCondition, SpatialEquilibrium, SpatialLoad, SpatialSetup, SpatialShaft,
     SpatialSystem, Unbalance,

@@ -3,8 +3,7 @@
 //!
 //! Signals of a run: rows, one an instant, by columns.
 
-use super::coupled::CoupledSystem;
-use crate::numerics::lanes::scalar_product;
+use super::simulated::Simulated;
 use crate::numerics::ode::{Instant, Observer, Snapshot, SnapshotError, SnapshotReader};
 use crate::numerics::series::{Decimator, DecimatorState, HALF_LENGTH_OUTPUTS, SeriesError};
 use std::ops::Range;
@@ -38,15 +37,15 @@ impl Recorder {
     ///
     /// # Errors
     /// [`SeriesError`] for a ratio of zero or a step that is not positive.
-    pub fn new(system: &CoupledSystem, ratio: u32, step: f64, wanted: usize) -> Result<Self, SeriesError> {
+    pub fn new(system: &impl Simulated, ratio: u32, step: f64, wanted: usize) -> Result<Self, SeriesError> {
         let filter = Decimator::second_derivative(ratio as usize, step)?;
-        let names = system.sensors.iter().map(|(name, _)| name.clone());
+        let layout = system.layout();
         Ok(Self {
             ratio: u64::from(ratio),
             wanted,
             begun: 0,
-            filters: vec![filter; system.sensors.len()],
-            queue: RunRecord::blank(names, system.setup.balls()),
+            filters: vec![filter; layout.sensors.len()],
+            queue: RunRecord::blank(layout),
             confirmed: 0,
         })
     }
@@ -85,7 +84,7 @@ impl Recorder {
             snapshot.numbers(&state.accumulators);
             snapshot.option(state.first_value);
         }
-        for column in Column::all(self.filters.len()) {
+        for column in self.queue.all_columns() {
             snapshot.numbers(self.queue.column(column));
         }
     }
@@ -112,7 +111,7 @@ impl Recorder {
             *values = snapshot.numbers()?;
         }
         let (begun, balls) = (self.queue.time_s.len(), self.queue.balls);
-        for column in Column::all(self.filters.len()) {
+        for column in self.queue.all_columns() {
             let (expected, found) = (begun * column.width(balls), self.queue.column(column).len());
             if found != expected && !matches!(column, Column::Sensor(_)) {
                 let (expected, found) = (expected as u64, found as u64);
@@ -124,30 +123,40 @@ impl Recorder {
     }
 }
 
-impl Observer<CoupledSystem> for Recorder {
-    fn observe(&mut self, system: &CoupledSystem, now: Instant<'_>) {
-        let modes = system.modes;
+impl<S: Simulated> Observer<S> for Recorder {
+    fn observe(&mut self, system: &S, now: Instant<'_>) {
         for (sensor, filter) in self.filters.iter_mut().enumerate() {
-            let modal = scalar_product(&system.sensors[sensor].1, &now.y[..modes]);
-            let forces = system.balls.all(|ball| &ball.outer_radial);
-            let residual = system.residual.as_ref().map_or(0.0, |residual| residual.at_sensor(sensor, forces));
-            if let Some(acceleration) = filter.push(modal + residual) {
+            if let Some(acceleration) = filter.push(system.sensor_displacement(sensor, now.y)) {
                 self.queue.sensors[sensor].1.push(acceleration);
             }
         }
         if now.step.is_multiple_of(self.ratio) && self.begun < self.wanted {
             self.begun += 1;
-            let record = &mut self.queue;
-            record.time_s.push(now.t);
-            record.shaft_x.push(now.y[modes]);
-            record.shaft_y.push(now.y[modes + 1]);
-            let touching = system.inner_race.touching_radius;
-            let balls = &system.balls;
-            let displacements = balls.all(|ball| &ball.displacement);
-            record.ball_radius.extend(displacements.map(|s| touching + s));
-            record.outer_force.extend(balls.all(|ball| &ball.outer_magnitude));
-            record.inner_force.extend(balls.all(|ball| &ball.inner_force));
+            system.record_into(&now, &mut self.queue);
         }
+    }
+}
+
+/// What the columns of a record are of.
+#[derive(Debug, Clone, PartialEq, Eq, Default)]
+pub struct RecordLayout {
+    /// Names of the sensors.
+    pub sensors: Vec<String>,
+    /// Number of balls, of all bearings one after the other.
+    pub balls: usize,
+    /// Whether there are the columns of a bearing in space.
+    pub in_space: bool,
+}
+
+impl RecordLayout {
+    /// All columns, in the order in which they are stored.
+    pub fn columns(&self) -> impl Iterator<Item = Column> + use<> {
+        let in_space = self.in_space;
+        [Column::Time, Column::ShaftX, Column::ShaftY]
+            .into_iter()
+            .chain((0..self.sensors.len()).map(Column::Sensor))
+            .chain([Column::BallRadius, Column::OuterForce, Column::InnerForce])
+            .chain(Column::IN_SPACE.into_iter().filter(move |_| in_space))
     }
 }
 
@@ -169,8 +178,22 @@ pub struct RunRecord {
     pub outer_force: Vec<f64>,
     /// Forces at the inner race [instants x balls], N.
     pub inner_force: Vec<f64>,
-    /// Number of balls.
+    /// Shaft displacement in z, m; this and what follows are empty for a bearing in its plane.
+    pub shaft_z: Vec<f64>,
+    /// Tilt of the shaft about x, rad.
+    pub tilt_x: Vec<f64>,
+    /// Tilt of the shaft about y, rad.
+    pub tilt_y: Vec<f64>,
+    /// Axial places of the balls from the outer groove's centre at rest [instants x balls], m.
+    pub ball_axial: Vec<f64>,
+    /// Contact angles at the outer race [instants x balls], rad.
+    pub outer_angle: Vec<f64>,
+    /// Contact angles at the inner race [instants x balls], rad.
+    pub inner_angle: Vec<f64>,
+    /// Number of balls, of all bearings one after the other.
     pub balls: usize,
+    /// Whether it has the columns of a bearing in space.
+    pub in_space: bool,
 }
 
 /// A column of a record.
@@ -190,24 +213,34 @@ pub enum Column {
     OuterForce,
     /// Forces of all balls at the inner race, N.
     InnerForce,
+    /// Shaft displacement in z, m.
+    ShaftZ,
+    /// Tilt of the shaft about x, rad.
+    TiltX,
+    /// Tilt of the shaft about y, rad.
+    TiltY,
+    /// Axial places of all balls, m.
+    BallAxial,
+    /// Contact angles of all balls at the outer race, rad.
+    OuterAngle,
+    /// Contact angles of all balls at the inner race, rad.
+    InnerAngle,
 }
 
 impl Column {
-    /// All columns of a record with so many sensors, in the order in which they are stored.
-    pub fn all(sensors: usize) -> impl Iterator<Item = Self> {
-        [Self::Time, Self::ShaftX, Self::ShaftY].into_iter().chain((0..sensors).map(Self::Sensor)).chain([
-            Self::BallRadius,
-            Self::OuterForce,
-            Self::InnerForce,
-        ])
-    }
+    /// Those of a bearing in space alone.
+    const IN_SPACE: [Self; 6] =
+        [Self::ShaftZ, Self::TiltX, Self::TiltY, Self::BallAxial, Self::OuterAngle, Self::InnerAngle];
 
     /// Numbers a row, with so many balls.
     pub fn width(self, balls: usize) -> usize {
-        match self {
-            Self::BallRadius | Self::OuterForce | Self::InnerForce => balls,
-            Self::Time | Self::ShaftX | Self::ShaftY | Self::Sensor(_) => 1,
-        }
+        if self.is_of_balls() { balls } else { 1 }
+    }
+
+    /// Whether it has a number a ball.
+    pub(crate) fn is_of_balls(self) -> bool {
+        use Column::{BallAxial, BallRadius, InnerAngle, InnerForce, OuterAngle, OuterForce};
+        matches!(self, BallRadius | OuterForce | InnerForce | BallAxial | OuterAngle | InnerAngle)
     }
 
     /// Where the numbers of some rows are.
@@ -219,8 +252,24 @@ impl Column {
 
 impl RunRecord {
     /// A record without rows.
-    pub(crate) fn blank(sensors: impl IntoIterator<Item = String>, balls: usize) -> Self {
-        Self { sensors: sensors.into_iter().map(|name| (name, Vec::new())).collect(), balls, ..Self::default() }
+    pub(crate) fn blank(layout: RecordLayout) -> Self {
+        let RecordLayout { sensors, balls, in_space } = layout;
+        let sensors = sensors.into_iter().map(|name| (name, Vec::new())).collect();
+        Self { sensors, balls, in_space, ..Self::default() }
+    }
+
+    /// What its columns are of.
+    pub fn layout(&self) -> RecordLayout {
+        RecordLayout {
+            sensors: self.sensors.iter().map(|(name, _)| name.clone()).collect(),
+            balls: self.balls,
+            in_space: self.in_space,
+        }
+    }
+
+    /// Its columns, in the order in which they are stored.
+    fn all_columns(&self) -> impl Iterator<Item = Column> + use<> {
+        self.layout().columns()
     }
 
     /// Number of rows: instants that are complete.
@@ -239,28 +288,43 @@ impl RunRecord {
             Column::BallRadius => &self.ball_radius,
             Column::OuterForce => &self.outer_force,
             Column::InnerForce => &self.inner_force,
+            Column::ShaftZ => &self.shaft_z,
+            Column::TiltX => &self.tilt_x,
+            Column::TiltY => &self.tilt_y,
+            Column::BallAxial => &self.ball_axial,
+            Column::OuterAngle => &self.outer_angle,
+            Column::InnerAngle => &self.inner_angle,
         }
     }
 
-    /// All columns, in the order of [`Column::all`].
+    /// All columns, in the order of [`RecordLayout::columns`].
     pub(super) fn columns_mut(&mut self) -> impl Iterator<Item = &mut Vec<f64>> {
         let sensors = self.sensors.iter_mut().map(|(_, values)| values);
         let forces = [&mut self.ball_radius, &mut self.outer_force, &mut self.inner_force];
-        [&mut self.time_s, &mut self.shaft_x, &mut self.shaft_y].into_iter().chain(sensors).chain(forces)
+        let in_space = self.in_space;
+        let space = [
+            &mut self.shaft_z,
+            &mut self.tilt_x,
+            &mut self.tilt_y,
+            &mut self.ball_axial,
+            &mut self.outer_angle,
+            &mut self.inner_angle,
+        ];
+        let plane = [&mut self.time_s, &mut self.shaft_x, &mut self.shaft_y].into_iter().chain(sensors).chain(forces);
+        plane.chain(space.into_iter().filter(move |_| in_space))
     }
 
     /// Appends rows of the same sensors and balls.
     pub fn append(&mut self, rows: &Self) {
-        for (column, values) in Column::all(self.sensors.len()).zip(self.columns_mut()) {
+        for (column, values) in self.all_columns().zip(self.columns_mut()) {
             values.extend_from_slice(rows.column(column));
         }
     }
 
     /// Takes the first rows out.
     pub(super) fn take_first(&mut self, rows: usize) -> Self {
-        let names = self.sensors.iter().map(|(name, _)| name.clone());
-        let mut taken = Self::blank(names, self.balls);
-        let ends = Column::all(taken.sensors.len()).map(|column| rows * column.width(taken.balls)).collect::<Vec<_>>();
+        let mut taken = Self::blank(self.layout());
+        let ends = self.all_columns().map(|column| rows * column.width(taken.balls)).collect::<Vec<_>>();
         for ((values, to), end) in self.columns_mut().zip(taken.columns_mut()).zip(ends) {
             to.extend(values.drain(..end));
         }

@@ -116,15 +116,12 @@ pub(super) fn write_signals<R: Recording>(
 ) -> Result<PathBuf, ComputeError> {
     let path = folder.path.join("signals.npz");
     let record = &result.simulation.record;
-    let (rows, balls, sensors) = (record.rows(), record.balls(), record.sensors());
+    let (rows, layout) = (record.rows(), record.layout());
     let mut npz = NpzWriter::create(&path)?;
-    for column in Column::all(sensors.len()) {
-        let name = column_name(column).unwrap_or_else(|sensor| &sensors[sensor]);
-        let shape: &[usize] = match column {
-            Column::BallRadius | Column::OuterForce | Column::InnerForce => &[rows, balls],
-            _ => &[rows],
-        };
-        let mut array = npz.begin(name, shape)?;
+    for column in layout.columns() {
+        let name = column_name(column).unwrap_or_else(|sensor| &layout.sensors[sensor]);
+        let shape = [rows, layout.balls];
+        let mut array = npz.begin(name, if column.is_of_balls() { &shape } else { &shape[..1] })?;
         record.read(column, 0..rows, &mut |piece| Ok(array.extend(piece)?))?;
         array.end()?;
     }

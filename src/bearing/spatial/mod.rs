@@ -25,7 +25,6 @@ mod shaft;
 mod tests;
 
 pub use assembly::{BallState, BearingCondition, BearingState, SpatialBearing};
-pub(crate) use ball::BallLaw;
 pub use ball::RaceControl;
 #[cfg(test)]
 pub(crate) use contact::AngleStiffness;

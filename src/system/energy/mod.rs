@@ -15,9 +15,10 @@
 mod power;
 mod stored;
 
-use super::coupled::CoupledSystem;
-use crate::numerics::ode::{Instant, Observer, SecondOrderSystem, Snapshot, SnapshotError, SnapshotReader, State};
-use power::{Integral, Powers};
+use super::simulated::Simulated;
+use crate::numerics::ode::{Instant, Observer, Snapshot, SnapshotError, SnapshotReader, State};
+use power::Integral;
+pub use power::Powers;
 use schemars::JsonSchema;
 use serde::Serialize;
 
@@ -83,9 +84,9 @@ pub struct EnergyMeter {
 
 impl EnergyMeter {
     /// For samples `step` (s) apart; none in the `printed` equations, which have no potential, and for balls without inertia.
-    pub fn new(system: &CoupledSystem, step: f64) -> Option<Self> {
+    pub fn new(system: &impl Simulated, step: f64) -> Option<Self> {
         system.has_energy().then(|| Self {
-            powers: Powers::new(system),
+            powers: Powers::new(system.kept_modes(), system.layout().balls),
             integral: Integral::default(),
             yielded: 0.0,
             yielding_before: Vec::new(),
@@ -95,7 +96,7 @@ impl EnergyMeter {
     }
 
     /// The balance of what was observed up to a state, the last that was; none before the first.
-    pub(crate) fn balance(&self, system: &mut CoupledSystem, end: &State) -> Option<EnergyBalance> {
+    pub(crate) fn balance(&self, system: &mut impl Simulated, end: &State) -> Option<EnergyBalance> {
         let mut force = vec![0.0; end.y.len()];
         system.force_into(end.t, &end.y, &end.v, &mut force);
         let now = Instant { step: 0, t: end.t, y: &end.y, v: &end.v };
@@ -134,9 +135,9 @@ impl EnergyMeter {
     }
 }
 
-impl Observer<CoupledSystem> for EnergyMeter {
-    fn observe(&mut self, system: &CoupledSystem, now: Instant<'_>) {
-        self.powers.find(system, &now);
+impl<S: Simulated> Observer<S> for EnergyMeter {
+    fn observe(&mut self, system: &S, now: Instant<'_>) {
+        system.find_powers(&now, &mut self.powers);
         self.integral.add(&self.powers.flows);
         if self.start.is_none() {
             self.start = Some(system.stored_energy(&now));

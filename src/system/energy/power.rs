@@ -10,16 +10,17 @@ use crate::numerics::lanes::{LANES, Lanes};
 use crate::numerics::ode::{Instant, Snapshot, SnapshotError, SnapshotReader};
 use std::f64::consts::TAU;
 
-/// Powers and what else has to be summed up.
+/// Powers at an instant, and what else has to be summed up.
 #[derive(Debug, Clone)]
-pub(super) struct Powers {
+pub struct Powers {
     /// As [`FLOWS`] counts them, W; that of contact damping without what the static residual's displacements
     /// take from it.
-    pub flows: [f64; FLOWS],
+    pub(in crate::system) flows: [f64; FLOWS],
     /// What damping adds to the outer force of each ball, N, and the static residual's displacement of the race there, m.
-    pub yielding: Vec<[f64; 2]>,
-    velocities: Vec<Lanes>,
-    row: Vec<Lanes>,
+    pub(in crate::system) yielding: Vec<[f64; 2]>,
+    /// Room for the modes.
+    pub(in crate::system) velocities: Vec<Lanes>,
+    pub(in crate::system) row: Vec<Lanes>,
 }
 
 /// How everything turns, and the velocity of the shaft's centre, m/s.
@@ -31,18 +32,14 @@ struct Motion {
 }
 
 impl Powers {
-    pub fn new(system: &CoupledSystem) -> Self {
-        let groups = lanes::column(system.modes, 0.0);
-        Self {
-            flows: [0.0; FLOWS],
-            yielding: vec![[0.0; 2]; system.balls.count],
-            velocities: groups.clone(),
-            row: groups,
-        }
+    /// Room for the powers of a system with so many modes and balls.
+    pub(super) fn new(modes: usize, balls: usize) -> Self {
+        let groups = lanes::column(modes, 0.0);
+        Self { flows: [0.0; FLOWS], yielding: vec![[0.0; 2]; balls], velocities: groups.clone(), row: groups }
     }
 
     /// Finds them at a state at which the force was evaluated last.
-    pub fn find(&mut self, system: &CoupledSystem, now: &Instant<'_>) {
+    pub(in crate::system) fn find(&mut self, system: &CoupledSystem, now: &Instant<'_>) {
         let modes = system.modes;
         lanes::set(&mut self.velocities, &now.v[..modes]);
         let motion = Motion {
@@ -156,7 +153,7 @@ impl CoupledSystem {
 }
 
 /// Loads, rotation, modal damping, contact damping, blending.
-pub(super) const FLOWS: usize = 5;
+pub(in crate::system) const FLOWS: usize = 5;
 
 /// Values at either end that the corrections take.
 const ENDS: usize = 4;

@@ -4,13 +4,13 @@ use crate::numerics::ode::Instant;
 use crate::system::{BallsInertia, CoupledSystem, Formulation};
 
 impl CoupledSystem {
-    /// Whether forces have potentials and all coordinates inertia: what an energy balance needs.
-    pub(in crate::system) fn has_energy(&self) -> bool {
+    /// Whether forces have potentials and all coordinates inertia.
+    pub(in crate::system) fn keeps_energy(&self) -> bool {
         self.setup.formulation == Formulation::Consistent && self.setup.balls_inertia == BallsInertia::Dynamic
     }
 
     /// Kinetic and elastic energy of a state at which the force was evaluated last, J.
-    pub(in crate::system) fn stored_energy(&self, &Instant { t, y, v, .. }: &Instant<'_>) -> f64 {
+    pub(in crate::system) fn energy_at(&self, &Instant { t, y, v, .. }: &Instant<'_>) -> f64 {
         let modes = self.modes;
         let of_modes: f64 = (0..modes).map(|i| v[i] * v[i] + self.linear[i].squared_frequency * y[i] * y[i]).sum();
         let squares = |v: &[f64]| v.iter().map(|v| v * v).sum::<f64>();

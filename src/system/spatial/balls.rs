@@ -104,6 +104,14 @@ impl BearingBalls {
         }
     }
 
+    /// Contact angles of the balls at a race that lies on this side of them, rad.
+    pub fn angles(&self, of: impl Fn(&BallGroup) -> &Felt, side: f64) -> impl Iterator<Item = f64> {
+        (0..self.count).map(move |j| {
+            let [r, z] = of(&self.groups[j / LANES]).normal.map(|component| side * component[j % LANES]);
+            z.atan2(r)
+        })
+    }
+
     /// What each ball has of something.
     pub fn all(&self, of: impl Fn(&BallGroup) -> &Lanes) -> impl Iterator<Item = f64> {
         (0..self.count).map(move |j| of(&self.groups[j / LANES])[j % LANES])

@@ -13,7 +13,7 @@ use crate::numerics::ode::Instant;
 use nalgebra::Vector3;
 use std::f64::consts::TAU;
 
-/// Powers at a state, W, and what of the modes they need.
+/// Powers at a state, W.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Flow {
     /// Weight, loads and unbalance.
@@ -28,7 +28,7 @@ pub(super) struct Flow {
 
 impl SpatialSystem {
     /// Kinetic and elastic energy of a state at which the force was evaluated last, J.
-    pub(super) fn stored_energy(&self, &Instant { y, v, .. }: &Instant<'_>) -> f64 {
+    pub(super) fn energy_at(&self, &Instant { y, v, .. }: &Instant<'_>) -> f64 {
         let modes = self.modes;
         let mut doubled: f64 = (0..modes).map(|i| v[i] * v[i] + self.linear[i].squared_frequency * y[i] * y[i]).sum();
         let own = &self.setup.shaft;
@@ -48,10 +48,8 @@ impl SpatialSystem {
         let (modes, &Instant { t, y, v, .. }) = (self.modes, now);
         lanes::set(velocities, &v[..modes]);
         let linear = self.linear.iter().zip(v);
-        let mut flow = Flow {
-            modal_damping: linear.map(|(linear, v)| linear.damping * v * v).sum(),
-            ..Flow::default()
-        };
+        let mut flow =
+            Flow { modal_damping: linear.map(|(linear, v)| linear.damping * v * v).sum(), ..Flow::default() };
         let weight = self.gravity.as_flattened().iter().zip(&v[..modes]);
         flow.loads += weight.map(|(weight, v)| weight * v).sum::<f64>();
         let pose = Pose::new(&y[modes..]);

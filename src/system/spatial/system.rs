@@ -1,13 +1,15 @@
 //! Structure, rigid shaft and the balls of several bearings as one system of second order.
 
 use super::balls::BearingBalls;
+use super::equilibrium::SpatialEquilibrium;
 use super::setup::SpatialSetup;
 use crate::bearing::RotationCursor;
 use crate::fe::reduction::frf::ModalDamping;
-use crate::numerics::lanes::{self, Lanes};
-use super::equilibrium::SpatialEquilibrium;
-use crate::numerics::ode::{Divergence, LinearCoordinate, SecondOrderSystem, State, all_finite};
-use crate::system::{ModeSelection, Structure, StructureModes, SystemError};
+use crate::numerics::lanes::{self, Lanes, scalar_product};
+use crate::numerics::ode::{Divergence, Instant, LinearCoordinate, SecondOrderSystem, State, all_finite};
+use crate::system::{
+    ModeSelection, Powers, RecordLayout, RunRecord, Simulated, Structure, StructureModes, SystemError,
+};
 
 /// Coordinates of the shaft.
 pub(super) const SHAFT: usize = 5;
@@ -180,5 +182,56 @@ impl SpatialSystem {
             y.extend([0, 1].iter().flat_map(|&way| balls.iter().map(move |ball| ball.place[way])));
         }
         State { t, v: vec![0.0; y.len()], y }
+    }
+}
+
+impl Simulated for SpatialSystem {
+    fn layout(&self) -> RecordLayout {
+        let sensors = self.sensors.iter().map(|(name, _)| name.clone()).collect();
+        RecordLayout { sensors, balls: self.setup.balls(), in_space: true }
+    }
+
+    fn kept_modes(&self) -> usize {
+        self.modes
+    }
+
+    fn uses_residual(&self) -> bool {
+        false
+    }
+
+    fn sensor_displacement(&self, sensor: usize, y: &[f64]) -> f64 {
+        scalar_product(&self.sensors[sensor].1, &y[..self.modes])
+    }
+
+    fn record_into(&self, now: &Instant<'_>, record: &mut RunRecord) {
+        record.time_s.push(now.t);
+        let shaft = &now.y[self.modes..];
+        let columns =
+            [&mut record.shaft_x, &mut record.shaft_y, &mut record.shaft_z, &mut record.tilt_x, &mut record.tilt_y];
+        for (column, value) in columns.into_iter().zip(shaft) {
+            column.push(*value);
+        }
+        for bearing in &self.bearings {
+            record.ball_radius.extend(bearing.all(|ball| &ball.place[0]).map(|s| bearing.base + s));
+            record.ball_axial.extend(bearing.all(|ball| &ball.place[1]));
+            record.inner_force.extend(bearing.all(|ball| &ball.loads[0]));
+            record.outer_force.extend(bearing.all(|ball| &ball.loads[1]));
+            record.inner_angle.extend(bearing.angles(|ball| &ball.inner, -1.0));
+            record.outer_angle.extend(bearing.angles(|ball| &ball.outer, 1.0));
+        }
+    }
+
+    fn has_energy(&self) -> bool {
+        true
+    }
+
+    fn stored_energy(&self, now: &Instant<'_>) -> f64 {
+        self.energy_at(now)
+    }
+
+    fn find_powers(&self, now: &Instant<'_>, powers: &mut Powers) {
+        let flow = self.flow(now, &mut powers.velocities, &mut powers.row);
+        powers.flows = [flow.loads, flow.rotation, flow.modal_damping, flow.contact_damping, 0.0];
+        powers.yielding.fill([0.0; 2]);
     }
 }

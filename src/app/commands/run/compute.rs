@@ -166,7 +166,7 @@ impl<R: Recording> RunResult<R> {
     /// Envelope analysis of every sensor; a window that the record does not reach is named instead.
     fn analyse(&mut self, case: &Case) {
         let settings = AnalysisSettings::of(case);
-        for (index, name) in self.simulation.record.sensors().iter().enumerate() {
+        for (index, name) in self.simulation.record.layout().sensors.iter().enumerate() {
             let read = |window, margin| self.simulation.stretch(index, window, margin);
             let kinematics = Kinematics::of(&self.scene.setup.cage, &self.scene.setup.geometry);
             let mut failed = |error: ComputeError| self.not_analysed.push(format!("{name}: {error}"));

@@ -3,7 +3,7 @@
 use crate::app::error::ComputeError;
 use crate::formats::ColumnFiles;
 use crate::numerics::ode::Snapshot;
-use crate::system::{Column, RunRecord};
+use crate::system::{Column, RecordLayout, RunRecord};
 use std::ops::Range;
 
 /// Takes the numbers of a column, piece by piece.
@@ -11,11 +11,8 @@ pub type TakePiece<'a> = &'a mut dyn FnMut(&[f64]) -> Result<(), ComputeError>;
 
 /// Rows of a run, in memory or on disk.
 pub trait Recording {
-    /// Names of the sensors.
-    fn sensors(&self) -> Vec<String>;
-
-    /// Number of balls.
-    fn balls(&self) -> usize;
+    /// What the columns are of.
+    fn layout(&self) -> RecordLayout;
 
     /// Number of rows.
     fn rows(&self) -> usize;
@@ -34,12 +31,8 @@ pub trait Recording {
 }
 
 impl Recording for RunRecord {
-    fn sensors(&self) -> Vec<String> {
-        self.sensors.iter().map(|(name, _)| name.clone()).collect()
-    }
-
-    fn balls(&self) -> usize {
-        self.balls
+    fn layout(&self) -> RecordLayout {
+        self.layout()
     }
 
     fn rows(&self) -> usize {
@@ -58,12 +51,8 @@ impl Recording for RunRecord {
 }
 
 impl Recording for ColumnFiles {
-    fn sensors(&self) -> Vec<String> {
-        self.sensors.clone()
-    }
-
-    fn balls(&self) -> usize {
-        self.balls
+    fn layout(&self) -> RecordLayout {
+        self.layout.clone()
     }
 
     fn rows(&self) -> usize {
@@ -99,7 +88,7 @@ pub trait Checkpoints {
     ///
     /// # Errors
     /// [`ComputeError`] if it cannot be opened.
-    fn open(&mut self, sensors: Vec<String>, balls: usize) -> Result<(Self::Record, Option<Snapshot>), ComputeError>;
+    fn open(&mut self, layout: RecordLayout) -> Result<(Self::Record, Option<Snapshot>), ComputeError>;
 
     /// Called after every output interval.
     fn request(&mut self) -> RunRequest;
@@ -121,8 +110,8 @@ pub struct InMemory;
 impl Checkpoints for InMemory {
     type Record = RunRecord;
 
-    fn open(&mut self, sensors: Vec<String>, balls: usize) -> Result<(RunRecord, Option<Snapshot>), ComputeError> {
-        Ok((RunRecord::blank(sensors, balls), None))
+    fn open(&mut self, layout: RecordLayout) -> Result<(RunRecord, Option<Snapshot>), ComputeError> {
+        Ok((RunRecord::blank(layout), None))
     }
 
     fn request(&mut self) -> RunRequest {

@@ -112,7 +112,7 @@ fn signals<R: Recording>(result: &RunResult<R>) -> Result<Section, ComputeError>
     if rows == 0 {
         return Ok(section.paragraph("The run ended before the first instant was complete."));
     }
-    let sensors = record.sensors();
+    let sensors = record.layout().sensors;
     let grid = [simulation.start_s, simulation.schedule.interval];
     let shown = &sensors[..sensors.len().min(SHOWN_WINDOWS)];
     if shown.len() < sensors.len() {

@@ -54,7 +54,7 @@ impl SensorScalogram {
             cycles: window.cycles,
             decimation: (samples / INSTANTS).ceil().max(1.0) as usize,
         };
-        let sensors = simulation.record.sensors();
+        let sensors = simulation.record.layout().sensors;
         Ok(Self {
             sensor: sensors.get(index).cloned().unwrap_or_default(),
             window,

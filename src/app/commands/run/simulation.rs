@@ -4,11 +4,10 @@ use super::recording::{Checkpoints, InMemory, Recording, RunRequest};
 use crate::app::error::ComputeError;
 use crate::app::scene::{RunModel, Scene};
 use crate::numerics::ode::{
-    BlowUp, Instant as Now, Integration, Method, Observer, Schedule, SecondOrderSystem, Snapshot, State, Statistics,
-    TransientError,
+    BlowUp, Instant as Now, Integration, Method, Observer, Schedule, Snapshot, State, Statistics, TransientError,
 };
 use crate::numerics::series::{SeriesError, TimeSeries, TimeWindow};
-use crate::system::{Column, CoupledSystem, EnergyBalance, EnergyMeter, Recorder, RunRecord};
+use crate::system::{Column, EnergyBalance, EnergyMeter, Recorder, RunRecord, Simulated};
 use sha2::{Digest, Sha256};
 use std::time::Instant;
 
@@ -114,7 +113,7 @@ impl<R: Recording> Simulation<R> {
 
     /// The same of a system of a model from any state.
     pub(crate) fn kept(
-        mut system: CoupledSystem,
+        mut system: impl Simulated,
         state: State,
         model: &RunModel,
         span: Span,
@@ -128,7 +127,7 @@ impl<R: Recording> Simulation<R> {
         let (ratio, step) = (schedule.steps_per_interval, schedule.step());
         let recorder = Recorder::new(&system, ratio, step, wanted)?;
         schedule.intervals += recorder.intervals_past_the_end();
-        let (record, snapshot) = checkpoints.open(system.sensor_names(), system.setup().balls())?;
+        let (record, snapshot) = checkpoints.open(system.layout())?;
         let mut stepping = Stepping {
             fingerprint: fingerprint(&mut system, &state),
             energy: energy.then(|| EnergyMeter::new(&system, step)).flatten(),
@@ -160,8 +159,8 @@ impl<R: Recording> Simulation<R> {
         Ok(Self {
             method: model.method,
             schedule,
-            modes: system.modes(),
-            residual: system.has_residual(),
+            modes: system.kept_modes(),
+            residual: system.uses_residual(),
             statistics: integration.statistics(),
             start_s,
             simulated_s: integration.state.t - start_s,
@@ -225,8 +224,8 @@ struct Stepping<R> {
 /// All that see the steps.
 struct Observers<'a>(&'a mut Recorder, Option<&'a mut EnergyMeter>);
 
-impl Observer<CoupledSystem> for Observers<'_> {
-    fn observe(&mut self, system: &CoupledSystem, now: Now<'_>) {
+impl<S: Simulated> Observer<S> for Observers<'_> {
+    fn observe(&mut self, system: &S, now: Now<'_>) {
         self.0.observe(system, now);
         if let Some(energy) = &mut self.1 {
             energy.observe(system, now);
@@ -244,10 +243,10 @@ impl<R: Recording> Stepping<R> {
     }
 
     /// Goes to the end, or as far as it comes.
-    fn go(
+    fn go<S: Simulated>(
         &mut self,
-        system: &mut CoupledSystem,
-        integration: &mut Integration<CoupledSystem>,
+        system: &mut S,
+        integration: &mut Integration<S>,
         schedule: Schedule,
         checkpoints: &mut impl Checkpoints<Record = R>,
         fraction: impl Fn(f64),
@@ -292,9 +291,9 @@ impl<R: Recording> Stepping<R> {
         self.record.append(&rows)
     }
 
-    fn save(
+    fn save<S: Simulated>(
         &mut self,
-        integration: &mut Integration<CoupledSystem>,
+        integration: &mut Integration<S>,
         checkpoints: &mut impl Checkpoints<Record = R>,
     ) -> Result<(), ComputeError> {
         self.append_confirmed()?;
@@ -313,13 +312,13 @@ impl<R: Recording> Stepping<R> {
     }
 
     /// Takes up what [`save`](Self::save) wrote; `None` where that is of another model.
-    fn recall(
+    fn recall<S: Simulated>(
         &mut self,
-        system: &CoupledSystem,
+        system: &S,
         method: Method,
         schedule: Schedule,
         snapshot: &Snapshot,
-    ) -> Result<Option<Integration<CoupledSystem>>, TransientError> {
+    ) -> Result<Option<Integration<S>>, TransientError> {
         let mut reader = snapshot.reader();
         let mut same = true;
         for word in self.fingerprint {
@@ -343,7 +342,7 @@ impl<R: Recording> Stepping<R> {
 }
 
 /// Tells models apart: SHA-256 of the linear part and of the force at the start, to the last bit.
-fn fingerprint(system: &mut CoupledSystem, start: &State) -> [u64; 4] {
+fn fingerprint(system: &mut impl Simulated, start: &State) -> [u64; 4] {
     let mut force = vec![0.0; start.y.len()];
     system.force_into(start.t, &start.y, &start.v, &mut force);
     let linear = system.linear().iter();

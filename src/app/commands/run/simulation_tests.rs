@@ -13,7 +13,7 @@ use crate::numerics::ode::{
 };
 use crate::numerics::series::{TimeSeries, TimeWindow};
 use crate::signal::diagnosis::Kinematics;
-use crate::system::{Column, RunRecord};
+use crate::system::{RecordLayout, RunRecord};
 use std::f64::consts::TAU;
 
 /// Stops after so many intervals, one number a part of the run.
@@ -27,11 +27,11 @@ struct Stops {
 impl Checkpoints for Stops {
     type Record = RunRecord;
 
-    fn open(&mut self, sensors: Vec<String>, balls: usize) -> Result<(RunRecord, Option<Snapshot>), ComputeError> {
+    fn open(&mut self, layout: RecordLayout) -> Result<(RunRecord, Option<Snapshot>), ComputeError> {
         self.intervals = 0;
         Ok(match self.kept.take() {
             Some((record, snapshot)) => (record, Some(snapshot)),
-            None => (RunRecord::blank(sensors, balls), None),
+            None => (RunRecord::blank(layout), None),
         })
     }
 
@@ -62,9 +62,7 @@ fn case(set: &[&str]) -> Case {
 
 /// Bits of all columns.
 fn bits(record: &RunRecord) -> Vec<Vec<u64>> {
-    Column::all(record.sensors.len())
-        .map(|column| record.column(column).iter().map(|x| x.to_bits()).collect())
-        .collect()
+    record.layout().columns().map(|column| record.column(column).iter().map(|x| x.to_bits()).collect()).collect()
 }
 
 /// A first ball in a dent, the others lifting off and landing.
@@ -175,7 +173,7 @@ fn what_is_on_disk_is_what_would_be_in_memory() {
     let mut unfinished = UnfinishedRun::begin(&path, identity());
     let on_disk = compute_kept_run(&case, &Unwatched, &mut unfinished).unwrap();
     assert_eq!(Recording::rows(&on_disk.simulation.record), 4801);
-    for column in Column::all(1) {
+    for column in in_memory.simulation.record.layout().columns() {
         let mut values = Vec::new();
         let mut take = |piece: &[f64]| {
             values.extend_from_slice(piece);
@@ -209,7 +207,7 @@ fn what_is_on_disk_is_what_would_be_in_memory() {
 
 /// A simulation with this signal at its one sensor, 100 kHz.
 fn with_signal(values: Vec<f64>) -> Simulation {
-    let mut record = RunRecord::blank(["P1".to_owned()], 0);
+    let mut record = RunRecord::blank(RecordLayout { sensors: vec!["P1".to_owned()], ..RecordLayout::default() });
     let instants = values.iter().enumerate();
     record.time_s = instants.map(|(k, _)| 2.0 + k as f64 * 1e-5).collect();
     (record.shaft_x, record.shaft_y) = (values.clone(), values.clone());

@@ -4,7 +4,7 @@ use crate::app::commands::run::{Checkpoints, RunRequest};
 use crate::app::error::ComputeError;
 use crate::numerics::ode::Snapshot;
 use crate::report::duration;
-use crate::system::RunRecord;
+use crate::system::{RecordLayout, RunRecord};
 use std::time::{Duration, Instant};
 
 /// Shares of the time after the scene is built and its model chosen at which stages end: the reference at its first, second and last attempt, the
@@ -123,8 +123,8 @@ impl Deadline {
 impl Checkpoints for Deadline {
     type Record = RunRecord;
 
-    fn open(&mut self, sensors: Vec<String>, balls: usize) -> Result<(RunRecord, Option<Snapshot>), ComputeError> {
-        Ok((RunRecord::blank(sensors, balls), None))
+    fn open(&mut self, layout: RecordLayout) -> Result<(RunRecord, Option<Snapshot>), ComputeError> {
+        Ok((RunRecord::blank(layout), None))
     }
 
     fn request(&mut self) -> RunRequest {

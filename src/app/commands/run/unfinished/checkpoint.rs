@@ -199,7 +199,7 @@ mod tests {
         let mut snapshot = Snapshot::default();
         snapshot.numbers(&[f64::NAN, -0.0, 1.0 / 3.0]);
         snapshot.count(u64::MAX - 1);
-        let columns = ColumnFiles::create(folder.path(), Vec::new(), 0).unwrap();
+        let columns = ColumnFiles::create(folder.path(), crate::system::RecordLayout::default()).unwrap();
         write(&path, &identity(), &columns, 0.25, &snapshot).unwrap();
         let read = Checkpoint::read(&path).unwrap();
         assert_eq!((read.rows, &read.snapshot), (0, &snapshot));

@@ -10,6 +10,7 @@ use crate::app::error::ComputeError;
 use crate::files;
 use crate::formats::ColumnFiles;
 use crate::numerics::ode::Snapshot;
+use crate::system::RecordLayout;
 use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
@@ -133,15 +134,15 @@ fn of_folder(folder: &Path) -> impl FnOnce(io::Error) -> ComputeError {
 impl Checkpoints for UnfinishedRun {
     type Record = ColumnFiles;
 
-    fn open(&mut self, sensors: Vec<String>, balls: usize) -> Result<(ColumnFiles, Option<Snapshot>), ComputeError> {
+    fn open(&mut self, layout: RecordLayout) -> Result<(ColumnFiles, Option<Snapshot>), ComputeError> {
         let opened = match self.resumed.take() {
             None => {
                 self.remove()?;
                 fs::create_dir_all(&self.folder).map_err(of_folder(&self.folder))?;
-                (ColumnFiles::create(&self.folder, sensors, balls)?, None)
+                (ColumnFiles::create(&self.folder, layout)?, None)
             }
             Some(checkpoint) => {
-                let record = ColumnFiles::resume(&self.folder, sensors, balls, checkpoint.rows)?;
+                let record = ColumnFiles::resume(&self.folder, layout, checkpoint.rows)?;
                 if record.digest() != checkpoint.columns_sha256 {
                     let what = "the rows in its columns are not those that the checkpoint counts";
                     return Err(checkpoint::damaged(&self.folder, what));
