@@ -2,6 +2,7 @@
 //! between ring and housing.
 
 mod attach;
+mod centre;
 mod confined;
 mod curved;
 mod error;
@@ -23,6 +24,7 @@ mod surface;
 mod tie;
 mod trapezoid;
 
+pub use centre::{CENTRE_COORDINATES, CentreNode, CentreTie, MeanTie};
 pub use error::ModelError;
 pub use flat::FlatLayer;
 pub use frame::RingFrame;

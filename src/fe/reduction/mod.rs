@@ -9,6 +9,7 @@ mod error;
 mod estimate;
 pub mod frf;
 mod interface_reduction;
+mod interior;
 mod interior_basis;
 mod residual_flexibility;
 mod response_estimate;

@@ -10,13 +10,17 @@
 //! k_bb = T^T K_bb T + (K_ib T)^T Psi
 //! m_bb = T^T M_bb T + (M_ib T)^T Psi + Psi^T A
 //! ```
+//!
+//! Interface coordinates that are means `W u` of the interior (see [`MeanTie`](crate::fe::model::MeanTie)) are held with the
+//! interface: their constraint modes are the motions of least strain energy with `W Psi = 1`, and `k_bb` has what holds them.
 
 use super::ReductionError;
+use super::interior::Interior;
 use crate::fe::assembly::SystemMatrices;
 use crate::fe::model::HousingPartition;
 use crate::numerics::linalg::{
-    DenseMatrix, EigenPairs, EigenProblem, LinalgError, SparseCholesky, SparseMatrix, congruence, sparse_times_dense,
-    submatrix, symmetric_eigen, transpose_times_dense,
+    DenseMatrix, EigenPairs, SparseMatrix, congruence, sparse_times_dense, submatrix, symmetric_eigen,
+    transpose_times_dense,
 };
 use crate::numerics::{Unwatched, Watch};
 use faer::{MatMut, MatRef};
@@ -25,18 +29,13 @@ use faer::{MatMut, MatRef};
 /// modes.
 const BLOCK: usize = 32;
 
-/// Relative error of static solutions above which an interior is refused: fixed-interface eigenvalues are right to as much,
-/// their frequencies to half of it.
-const LARGEST_CONTRACTION: f64 = 1e-4;
-
 /// A housing split into interface and interior, with the factor of its interior.
 #[derive(Debug, Clone)]
 pub struct Substructure {
     /// How the degrees of freedom were split.
     pub(crate) partition: HousingPartition,
-    factor: SparseCholesky,
-    /// K_ii and M_ii.
-    pub(super) interior: EigenProblem,
+    /// K_ii and M_ii with the factor, and what holds the interior.
+    pub(super) interior: Interior,
     /// M_ib T [interior x interface].
     mass_ib: SparseMatrix,
     /// Constraint modes Psi [interior x interface].
@@ -77,27 +76,8 @@ impl Substructure {
             let what = "the interface has no free degree of freedom: every one of its nodes is fixed or tied";
             return Err(ReductionError::Refused(what.to_owned()));
         }
-        let (k_ii, m_ii) = (submatrix(k, i, i), submatrix(m, i, i));
-        let dof = |row: usize| i.get(row).copied().unwrap_or(0);
-        let soft = |row, contraction| ReductionError::SoftInterior {
-            dof: dof(row),
-            error: contraction,
-            limit: LARGEST_CONTRACTION,
-        };
-        let floating = |error| match error {
-            LinalgError::NotPositiveDefinite { pivot, .. } => {
-                ReductionError::FloatingInterior { interior: i.len(), dof: dof(pivot) }
-            }
-            LinalgError::IllConditioned { row, contraction, .. } => soft(row, contraction),
-            other => other.into(),
-        };
         watch.stage("factor");
-        let factor = SparseCholesky::new(&k_ii).map_err(floating)?;
-        if factor.contraction() > LARGEST_CONTRACTION {
-            return Err(soft(factor.weakest_row(), factor.contraction()));
-        }
-        let interior = EigenProblem::with_factor(&k_ii, &m_ii, &factor)?;
-        drop((k_ii, m_ii));
+        let interior = Interior::new(matrices, partition)?;
         let stiffness_ib = (&submatrix(k, i, b) * tie).to_csc();
         let mass_ib = (&submatrix(m, i, b) * tie).to_csc();
         let driven = |a: &SparseMatrix| dense(&congruence(&submatrix(a, b, b), tie));
@@ -106,7 +86,6 @@ impl Substructure {
             mass: driven(m),
             constraint_modes: DenseMatrix::zeros(i.len(), tie.cols()),
             partition: partition.clone(),
-            factor,
             interior,
             mass_ib,
         };
@@ -120,11 +99,24 @@ impl Substructure {
         for first in (0..order).step_by(BLOCK) {
             watch.fraction(first as f64 / order as f64);
             let width = BLOCK.min(order - first);
-            let mut modes = columns_of(stiffness_ib, first, width);
-            modes *= faer::Scale(-1.0);
-            self.factor.solve_columns(&mut modes)?;
+            let mut pulled = columns_of(stiffness_ib, first, width);
+            let lift = self.interior.lift(first, width);
+            if let Some(lift) = &lift {
+                pulled += self.interior.stiffness_times(lift);
+            }
+            pulled *= faer::Scale(-1.0);
+            let mut modes = self.interior.solve(pulled)?;
+            if let Some(lift) = &lift {
+                modes += lift;
+            }
             self.constraint_modes.subcols_mut(first, width).copy_from(&modes);
-            let k = transpose_times_dense(stiffness_ib, &modes);
+            let mut k = transpose_times_dense(stiffness_ib, &modes);
+            if lift.is_some() {
+                // the interior is in equilibrium but for what holds the means
+                let mut holding = self.interior.stiffness_times(&modes);
+                add_columns(&mut holding, stiffness_ib, first);
+                k += self.interior.lifted(&holding);
+            }
             add_block(self.stiffness.subcols_mut(first, width), k.as_ref());
             let mut follow = self.interior.mass_times(&modes);
             add_columns(&mut follow, &self.mass_ib, first);
@@ -145,9 +137,9 @@ impl Substructure {
         self.partition.tie.cols()
     }
 
-    /// Number of interior degrees of freedom.
+    /// Number of interior degrees of freedom, each mean that is held less by one.
     pub(crate) fn interior_dof(&self) -> usize {
-        self.partition.interior.len()
+        self.interior.independent()
     }
 
     /// k_bb [interface x interface], N/m: the housing condensed statically (Guyan, AIAA Journal 3 (1965) 380).
@@ -155,13 +147,12 @@ impl Substructure {
         &self.stiffness
     }
 
-    /// `K_ii^-1 R` for `R` [interior x k].
+    /// `K_ii^-1 R` for `R` [interior x k]; means that are held stay zero.
     ///
     /// # Errors
     /// [`LinalgError::Shape`].
-    pub(crate) fn solve_interior(&self, mut r: DenseMatrix) -> Result<DenseMatrix, ReductionError> {
-        self.factor.solve_columns(&mut r)?;
-        Ok(r)
+    pub(crate) fn solve_interior(&self, r: DenseMatrix) -> Result<DenseMatrix, ReductionError> {
+        self.interior.solve(r)
     }
 
     /// `A U`, the inertia of the interior that follows interface motions `U` [interface x k].
@@ -186,7 +177,7 @@ impl Substructure {
     /// The same; `watch` is told which part is found.
     pub(super) fn lowest_modes_watched(&self, count: usize, watch: &dyn Watch) -> Result<EigenPairs, ReductionError> {
         watch.stage("fixed-interface modes");
-        Ok(self.interior.lowest_told(count, &|part| watch.fraction(part))?)
+        self.interior.lowest(count, &|part| watch.fraction(part))
     }
 }
 
@@ -196,7 +187,7 @@ pub(super) fn dense(sparse: &SparseMatrix) -> DenseMatrix {
 }
 
 /// Some columns of a sparse matrix with all their zeros.
-fn columns_of(sparse: &SparseMatrix, first: usize, width: usize) -> DenseMatrix {
+pub(super) fn columns_of(sparse: &SparseMatrix, first: usize, width: usize) -> DenseMatrix {
     let mut full = DenseMatrix::zeros(sparse.rows(), width);
     add_columns(&mut full, sparse, first);
     full
