@@ -213,8 +213,8 @@ impl Means {
         let [q_d, w_d] = [&q, &w].map(|a| rows_of(a, &chosen));
         let others: Vec<usize> = (0..taken.len()).filter(|row| !chosen.contains(row)).collect();
         let inverse = |a: &DenseMatrix, b: &DenseMatrix| a.partial_piv_lu().solve(b);
-        // G^T = -W_h^T W_d^-T, the same for all bases of the rows of W
-        let g = inverse(&q_d, &rows_of(&q, &others).transpose().to_owned());
+        // -G = W_d^-1 W_h, the same for all bases of the rows of W
+        let g = inverse(&q_d.transpose().to_owned(), &rows_of(&q, &others).transpose().to_owned());
         let e = inverse(&w_d.transpose().to_owned(), &DenseMatrix::identity(p, p));
         let followers: Vec<usize> = chosen.iter().map(|&row| inside[row]).collect();
         let mut is_follower = vec![false; i.len()];
