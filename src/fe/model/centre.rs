@@ -88,8 +88,10 @@ impl CentreNode {
             CentreTie::Mean => {
                 let none = TripletBuilder::new(0, motions).build();
                 let mut partition = HousingPartition::new(housing, Vec::new(), none);
-                partition.mean =
-                    MeanTie { coordinates: (0..motions).collect(), weights: mean_weights(housing, &nodes, point) };
+                partition.mean = Box::new(MeanTie {
+                    coordinates: (0..motions).collect(),
+                    weights: mean_weights(housing, &nodes, point),
+                });
                 partition
             }
         };
@@ -288,7 +290,7 @@ impl HousingPartition {
             column += part.tie.cols();
         }
         let mut joined = Self::new(housing, driven, tie.build());
-        joined.mean = MeanTie { coordinates: mean_coordinates, weights: weights.build() };
+        joined.mean = Box::new(MeanTie { coordinates: mean_coordinates, weights: weights.build() });
         Ok(joined)
     }
 }

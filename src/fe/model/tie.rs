@@ -250,7 +250,7 @@ pub struct HousingPartition {
     /// T: displacements of `driven` from the interface coordinates [driven x interface].
     pub tie: SparseMatrix,
     /// Interface coordinates that follow the interior instead of driving it; their columns of T are empty.
-    pub mean: MeanTie,
+    pub mean: Box<MeanTie>,
 }
 
 impl HousingPartition {
@@ -260,7 +260,7 @@ impl HousingPartition {
         driven.iter().for_each(|&dof| is_driven[dof] = true);
         let free = model.free_dofs().into_iter();
         let interior = free.filter(|&dof| !is_driven[dof]).collect();
-        Self { interior, driven, tie, mean: MeanTie::default() }
+        Self { interior, driven, tie, mean: Box::default() }
     }
 }
 

@@ -1,7 +1,7 @@
 //! Small substructures for tests.
 
 use crate::fe::assembly::SystemMatrices;
-use crate::fe::model::{HousingPartition, MeanTie};
+use crate::fe::model::HousingPartition;
 use crate::numerics::linalg::{DenseMatrix, TripletBuilder};
 
 /// Rod of unit springs and masses, free at both ends.
@@ -27,7 +27,7 @@ pub(super) fn rod(nodes: usize) -> SystemMatrices {
 pub(super) fn partition(nodes: usize) -> HousingPartition {
     let mut tie = TripletBuilder::new(1, 1);
     tie.add(0, 0, 1.0);
-    HousingPartition { driven: vec![0], interior: (1..nodes).collect(), tie: tie.build(), mean: MeanTie::default() }
+    HousingPartition { driven: vec![0], interior: (1..nodes).collect(), tie: tie.build(), mean: Box::default() }
 }
 
 /// The rod held by both ends.
@@ -39,7 +39,7 @@ pub(super) fn both_ends(nodes: usize) -> HousingPartition {
         driven: vec![0, nodes - 1],
         interior: (1..nodes - 1).collect(),
         tie: tie.build(),
-        mean: MeanTie::default(),
+        mean: Box::default(),
     }
 }
 
@@ -60,7 +60,7 @@ pub(super) fn every_third(nodes: usize) -> HousingPartition {
     HousingPartition {
         interior: (0..nodes).filter(|node| node % 3 != 0).collect(),
         tie: tie.build(),
-        mean: MeanTie::default(),
+        mean: Box::default(),
         driven,
     }
 }
