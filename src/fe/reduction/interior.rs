@@ -14,7 +14,9 @@
 //! ```
 //!
 //! `P^T K P` has a dense block on the bores that is never formed (see `numerics::linalg::followers`): one sparse factor of K_hh
-//! serves solutions, modes and the count of modes. A motion c of the means is `u = E c` on the way, `E = W_d^-1` at d.
+//! serves solutions, modes and the count of modes. A motion c of the
+//! means begins as `u = E c`, `E = W^T (W W^T)^-1`: of means with equal weights the bore moves as a rigid body. So the strains that
+//! the interior then takes off are small.
 //!
 //! The d are those columns of an orthonormal basis of the rows of W that are the longest, one after the other, each less what
 //! the ones before have of it (QR with pivoting; Golub and Van Loan, *Matrix Computations*, section 5.4.2). So `W_d` is
@@ -60,7 +62,7 @@ struct Means {
     follow: Arc<SparseMatrix>,
     /// `[K_hd; K_dd]` and the same of M [interior x p].
     columns: [SparseMatrix; 2],
-    /// Motions of the interior by unit interface coordinates, `E C` [interior x interface].
+    /// Motions of the interior by unit interface coordinates, `E C` [interior x interface], C which of them the means are.
     lift: SparseMatrix,
 }
 
@@ -152,9 +154,13 @@ impl Interior {
             self.factor.solve_columns(&mut r)?;
             return Ok(r);
         };
-        let mut h = means.gathered(&r);
-        self.factor.solve_columns(&mut h)?;
-        Ok(means.spread(&h))
+        let forces = means.gathered(&r);
+        let mut x = forces.clone();
+        self.factor.solve_columns(&mut x)?;
+        // single unknowns hold h more softly than the means do: a step of refinement takes that round-off away
+        let mut rest = forces - self.problem.stiffness_times(&x);
+        self.factor.solve_columns(&mut rest)?;
+        Ok(means.spread(&(x + rest)))
     }
 
     /// Motions of the interior by `width` interface coordinates from `first` on with the right means, `E C` [interior x width];
@@ -210,12 +216,14 @@ impl Means {
         }
         let q = orthonormal(&w)?;
         let chosen = pivots(&q);
-        let [q_d, w_d] = [&q, &w].map(|a| rows_of(a, &chosen));
+        let q_d = rows_of(&q, &chosen);
         let others: Vec<usize> = (0..taken.len()).filter(|row| !chosen.contains(row)).collect();
         let inverse = |a: &DenseMatrix, b: &DenseMatrix| a.partial_piv_lu().solve(b);
         // -G = W_d^-1 W_h, the same for all bases of the rows of W
         let g = inverse(&q_d.transpose().to_owned(), &rows_of(&q, &others).transpose().to_owned());
-        let e = inverse(&w_d.transpose().to_owned(), &DenseMatrix::identity(p, p));
+        // W^T = Q S
+        let s = q.transpose() * &w;
+        let e = inverse(&s, &q.transpose().to_owned());
         let followers: Vec<usize> = chosen.iter().map(|&row| inside[row]).collect();
         let mut is_follower = vec![false; i.len()];
         followers.iter().for_each(|&place| is_follower[place] = true);
@@ -228,8 +236,8 @@ impl Means {
             }
         }
         let mut lift = TripletBuilder::new(i.len(), partition.tie.cols());
-        for (row, &place) in followers.iter().enumerate() {
-            mean.coordinates.iter().enumerate().for_each(|(column, &to)| lift.add(place, to, e[(row, column)]));
+        for (row, &place) in inside.iter().enumerate() {
+            mean.coordinates.iter().enumerate().for_each(|(column, &to)| lift.add(place, to, e[(column, row)]));
         }
         let of_followers: Vec<usize> = followers.iter().map(|&place| i[place]).collect();
         let columns = [&matrices.stiffness, &matrices.mass].map(|a| submatrix(a, i, &of_followers));
