@@ -128,11 +128,11 @@ fn a_bore_with_a_mass_or_springs_is_that_of_calculix() {
     let turning = [2e3, 4e3, 3e3];
     let none = [0.0; 3];
     let cases: [(CentreTie, [f64; 3], f64, [[f64; 3]; 2], &[f64]); 5] = [
-        (CentreTie::Rigid, off, 0.0, [none; 2], &[22948.51, 39938.75, 49049.52, 89390.65]),
-        (CentreTie::Rigid, off, mass, [none; 2], &[7962.26, 14132.57, 28124.16, 48647.23]),
-        (CentreTie::Rigid, off, 0.0, [springs, turning], &[26237.56, 41458.47, 52863.66, 90294.91]),
-        (CentreTie::Mean, BORE, mass, [none; 2], &[6454.97, 7563.76, 17471.13, 29895.79]),
-        (CentreTie::Mean, BORE, 0.0, [springs, none], &[18407.68, 21260.56, 29896.21, 43797.62]),
+        (CentreTie::Rigid, off, 0.0, [none; 2], &[22948.51, 39938.75, 49049.52]),
+        (CentreTie::Rigid, off, mass, [none; 2], &[7962.26, 14132.57, 28124.16]),
+        (CentreTie::Rigid, off, 0.0, [springs, turning], &[26237.56, 41458.47, 52863.66]),
+        (CentreTie::Mean, BORE, mass, [none; 2], &[6454.97, 7563.76, 17471.13]),
+        (CentreTie::Mean, BORE, 0.0, [springs, none], &[18407.68, 21260.56, 29896.21]),
     ];
     for (tie, point, mass, [along, about], expected) in cases {
         let partition = pedestal.partition(&[("bore", point)], tie);
@@ -142,7 +142,7 @@ fn a_bore_with_a_mass_or_springs_is_that_of_calculix() {
         let stiffness = part(&|k| if k < 3 { along[k] } else { about[k - 3] });
         let inertia = part(&|k| if k < 3 { mass } else { 0.0 });
         let attached = Attached { stiffness: &stiffness, mass: &inertia };
-        let choice = BasisChoice { size: BasisSize::Auto(1e-6), enhanced: true, band_hz: 91e3 };
+        let choice = BasisChoice { size: BasisSize::Auto(1e-5), enhanced: true, band_hz: 53e3 };
         let condensed = craig_bampton(&pedestal.matrices, &partition, choice, Some(attached)).unwrap();
         let (mut k, mut m) = (condensed.superelement.stiffness.clone(), condensed.superelement.mass.clone());
         for coordinate in 0..6 {

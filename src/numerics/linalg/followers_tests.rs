@@ -1,6 +1,8 @@
 //! Followers against the dense matrix with the followers eliminated.
 
-use super::super::{EigenProblem, SparseCholesky, symmetric_generalised_eigen};
+use super::super::{
+    EigenProblem, Factor, Kind, SparseCholesky, SymmetricMatrix, analysed, symmetric_generalised_eigen,
+};
 use super::*;
 use crate::numerics::linalg::dense::pseudo_random;
 use crate::numerics::linalg::sparse::placed;
@@ -81,7 +83,7 @@ fn products_and_solutions_are_those_of_the_whole_matrix() {
 fn diagonal_and_scatter_know_the_followers() {
     let sample = sample(60, 3);
     let ordering = Ordering::of(&sample.sparse[0]).expect("an order");
-    let mut a = super::super::SymmetricMatrix::permuted(&sample.sparse[0], &ordering);
+    let mut a = SymmetricMatrix::permuted(&sample.sparse[0], &ordering);
     let alone = a.energy_scatters(DenseMatrix::identity(60, 60).as_ref());
     a.followers = Some(sample.followers[0].permuted(&ordering));
     for (place, found) in a.diagonal().into_iter().enumerate() {
@@ -123,5 +125,26 @@ fn eigenvalues_and_their_count_are_those_of_the_whole_matrix() {
         let [low, high] = [expected.values[20] * 1.0001, expected.values[27] * 1.0001];
         let band = problem.between(low, high, &|_| {}).expect("found and counted");
         assert_eq!(band.values.len(), 7, "{n}: {:?}", band.count_check);
+    }
+}
+
+/// The search has other ways where a count is wrong: the count itself, between all eigenvalues.
+#[test]
+fn negative_eigenvalues_are_counted_at_every_shift() {
+    let sample = sample(40, 5);
+    let expected = symmetric_generalised_eigen(&sample.whole[0], &sample.whole[1]).expect("definite").values;
+    let ordering = Ordering::of(&sample.sparse[0]).expect("an order");
+    let part = |which: usize| {
+        let mut a = SymmetricMatrix::permuted(&sample.sparse[which], &ordering);
+        a.followers = Some(sample.followers[which].permuted(&ordering));
+        a
+    };
+    let [stiffness, mass] = [part(0), part(1)];
+    let symbolic = Arc::new(analysed(&stiffness.shifted(1.0, &mass)).expect("analysed"));
+    for below in 0..=40 {
+        let value = |place: usize| expected.get(place).copied().unwrap_or(2.0 * expected[39]);
+        let sigma = if below == 0 { -0.1 } else { 0.5 * (value(below - 1) + value(below)) };
+        let factor = Factor::double(&symbolic, &stiffness.shifted(sigma, &mass), Kind::Indefinite).expect("regular");
+        assert_eq!(factor.negative(), below, "{sigma}");
     }
 }
