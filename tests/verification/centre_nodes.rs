@@ -32,6 +32,9 @@ use std::path::Path;
 const BORE: [f64; 3] = [-2.7044141631804253e-5, -4.127769562000267e-5, 3.7387613728153537e-6];
 const FEET: [f64; 3] = [2.1431528471191147e-7, -0.013, 0.0001336425771000694];
 
+/// Tie, its point, a mass there, springs along and about the axes, and frequencies in Hz.
+type Case = (CentreTie, [f64; 3], f64, [[f64; 3]; 2], &'static [f64]);
+
 struct Pedestal {
     mesh: Mesh,
     model: HousingModel,
@@ -127,7 +130,7 @@ fn a_bore_with_a_mass_or_springs_is_that_of_calculix() {
     let (mass, springs) = (0.05, [2e7, 5e7, 3e7]);
     let turning = [2e3, 4e3, 3e3];
     let none = [0.0; 3];
-    let cases: [(CentreTie, [f64; 3], f64, [[f64; 3]; 2], &[f64]); 5] = [
+    let cases: [Case; 5] = [
         (CentreTie::Rigid, off, 0.0, [none; 2], &[22948.51, 39938.75, 49049.52]),
         (CentreTie::Rigid, off, mass, [none; 2], &[7962.26, 14132.57, 28124.16]),
         (CentreTie::Rigid, off, 0.0, [springs, turning], &[26237.56, 41458.47, 52863.66]),

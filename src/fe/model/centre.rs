@@ -19,7 +19,7 @@
 //! those of its remark on the reference point: `W` about any point follows from that about the mean of the nodes. Equal weights
 //! follow the mesh: where it is finer, the mean counts more.
 
-use super::{HousingModel, HousingPartition, ModelError};
+use super::{HousingModel, HousingPartition, MeanTie, ModelError};
 use crate::fe::mesh::Mesh;
 use crate::numerics::Brief;
 use crate::numerics::linalg::{SparseMatrix, TripletBuilder};
@@ -225,28 +225,6 @@ fn check_nodes(housing: &HousingModel, group: &str, nodes: &[usize], point: [f64
         ));
     }
     Ok(())
-}
-
-/// Interface coordinates that are means over free nodes: `W u = c`. Empty without such.
-#[derive(Debug, Clone, PartialEq)]
-pub struct MeanTie {
-    /// Which of the interface coordinates they are.
-    pub coordinates: Vec<usize>,
-    /// `W^T` [housing dof x coordinates]: what a displacement adds to each; rotations in 1/m.
-    pub weights: SparseMatrix,
-}
-
-impl Default for MeanTie {
-    fn default() -> Self {
-        Self { coordinates: Vec::new(), weights: TripletBuilder::new(0, 0).build() }
-    }
-}
-
-impl MeanTie {
-    /// Whether there is no such coordinate.
-    pub(crate) fn is_empty(&self) -> bool {
-        self.coordinates.is_empty()
-    }
 }
 
 impl HousingPartition {

@@ -23,7 +23,7 @@
 //! well-conditioned, and holding d holds the rigid motions of the body.
 
 use super::ReductionError;
-use super::substructure::{columns_of, dense, rows_of, symmetric};
+use super::parts::{columns_of, dense, rows_of, symmetric};
 use crate::fe::assembly::SystemMatrices;
 use crate::fe::model::HousingPartition;
 use crate::numerics::Told;

@@ -13,6 +13,7 @@ pub mod frf;
 mod interface_reduction;
 mod interior;
 mod interior_basis;
+mod parts;
 mod residual_flexibility;
 mod response_estimate;
 #[cfg(test)]

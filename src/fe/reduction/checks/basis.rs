@@ -2,7 +2,7 @@
 //!
 //! All checks of a condensed housing.
 
-use super::super::substructure::rows_of;
+use super::super::parts::rows_of;
 use super::matrices::{check_matrices, largest, pairs};
 use super::{Check, CraigBampton, InterfaceReduction, ReductionError, RigidMotions};
 use crate::fe::assembly::SystemMatrices;
