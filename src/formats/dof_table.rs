@@ -4,8 +4,8 @@
 //! |---|---|
 //! | `row` | the matrix's row from 0, as NumPy and SciPy count |
 //! | `mtx_row` | the same from 1, as Matrix Market files count |
-//! | `body` | `housing`, `ring`, `interface` or `modal` |
-//! | `node` | gmsh's tag of a housing's node; a ring's node, an interface coordinate or a mode from 0 |
+//! | `body` | `housing`, `ring`, `centre`, `interface` or `modal` |
+//! | `node` | gmsh's tag of a housing's node; a ring's node, a centre node, an interface coordinate or a mode from 0 |
 //! | `direction` | `x`, `y`, `z`, `radial`, `tangential`, `axial`; rotations `about_x`, `about_y`, `about_z`; `generalised` |
 //! | `unit` | of the degree of freedom: `m`, `rad`, or `generalised` |
 //! | `x_m`, `y_m`, `z_m` | the node's position in the mesh's axes; empty where it has none |
@@ -28,6 +28,8 @@ pub enum DofBody {
     Housing,
     /// To a bearing's outer ring.
     Ring,
+    /// To the centre node of a bore; these are numbered from 0.
+    Centre,
     /// To none that is known: an interface coordinate of a superelement, numbered from 0.
     Interface,
     /// To none: the amplitude of a superelement's mode, numbered from 0.
@@ -35,7 +37,7 @@ pub enum DofBody {
 }
 
 /// What a degree of freedom is. Those of a housing are along the mesh's axes, or along those of the bore where a sliding
-/// ring sits; those of a ring are along and about the bearing's axes.
+/// ring sits; those of a ring are along and about the bearing's axes, those of a centre node along and about the mesh's.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum DofDirection {
     /// Displacement along x, y or z (0, 1, 2).
@@ -53,7 +55,7 @@ pub enum DofDirection {
 pub struct DofLabel {
     /// Where its node belongs.
     pub body: DofBody,
-    /// The node: gmsh's tag; or a ring's node, counted on over several rings, an interface coordinate or a mode, from 0.
+    /// The node: gmsh's tag; or a ring's node, counted on over several rings, a centre node, an interface coordinate or a mode, from 0.
     pub node: u64,
     /// What it is.
     pub direction: DofDirection,
@@ -69,6 +71,7 @@ impl DofBody {
         match self {
             Self::Housing => "housing",
             Self::Ring => "ring",
+            Self::Centre => "centre",
             Self::Interface => "interface",
             Self::Modal => "modal",
         }
@@ -76,7 +79,7 @@ impl DofBody {
 
     /// The body of this name, if there is one.
     pub(crate) fn of_name(name: &str) -> Option<Self> {
-        let all = [Self::Housing, Self::Ring, Self::Interface, Self::Modal];
+        let all = [Self::Housing, Self::Ring, Self::Centre, Self::Interface, Self::Modal];
         all.into_iter().find(|body| body.name() == name)
     }
 }
@@ -132,6 +135,15 @@ impl DofLabel {
     pub fn modal(mode: u64) -> Self {
         let [position, axis] = [[f64::NAN; 3]; 2];
         Self { body: DofBody::Modal, node: mode, direction: DofDirection::Generalised, position, axis }
+    }
+
+    /// Coordinate `coordinate` (0 to 5: displacements along x, y, z, then rotations about them) of the centre node `node`
+    /// at `position`.
+    pub fn centre(node: u64, coordinate: usize, position: [f64; 3]) -> Self {
+        let axis = coordinate % 3;
+        let direction = if coordinate < 3 { DofDirection::Along(axis) } else { DofDirection::About(axis) };
+        let axis = std::array::from_fn(|own| if own == axis { 1.0 } else { 0.0 });
+        Self { body: DofBody::Centre, node, direction, position, axis }
     }
 
     /// An interface coordinate of which only the number, from 0, is known.
@@ -238,7 +250,7 @@ mod tests {
         assert_eq!(DofDirection::of_component(9), Some(DofDirection::Polar(2)));
         assert_eq!(DofDirection::of_component(10), None);
         assert_eq!(DofDirection::of_component(-1), None);
-        for name in ["housing", "ring", "interface", "modal"] {
+        for name in ["housing", "ring", "centre", "interface", "modal"] {
             assert_eq!(DofBody::of_name(name).unwrap().name(), name);
         }
         assert_eq!(DofBody::of_name("shaft"), None);

@@ -10,7 +10,7 @@
 //! | comma-separated values ([`csv`]) | `.csv` | mode shapes | mode shapes |
 //! | Matrix Market ([`matrix_market`]) | `.mtx` | symmetric matrices, sparse and dense | |
 //! | Nastran OUTPUT4 ([`op4`]) | `.op4` | matrices | matrices |
-//! | superelement ([`superelement`]) | `.npz`, `.op4`, `.fem` | everything of a condensed housing | `.npz` |
+//! | superelement ([`superelement`]) | `.npz`, `.op4`, `.bdf`, `.fem` | everything of a condensed housing | `.npz` |
 //! | columns of a run under way ([`ColumnFiles`]) | `.f64` | time, sensors, forces | the same |
 //! | measured signals ([`measured`]) | `.npz`, `.mat`, `.csv`, `.wav`, `.uff` | | signals over time |
 //! | table of degrees of freedom ([`dof_table`]) | `.csv`, `.npz` | rows of matrices | |
@@ -52,7 +52,8 @@ pub use read_modes::read_mode_shapes;
 pub(crate) use read_modes::read_mode_shapes_in;
 pub use superelement::{
     FieldRecovery, InterfaceRecovery, MbdynReference, MbdynSummary, SensorRow, SuperelementRecord,
-    read_superelement_npz, read_superelement_op4, write_mbdyn_fem, write_superelement_npz, write_superelement_op4,
+    read_superelement_npz, read_superelement_op4, write_mbdyn_fem, write_superelement_dmig, write_superelement_npz,
+    write_superelement_op4,
 };
 pub use uff::{
     FrequencyResponse, ResponseKind, ResponsePoint, read_modes_uff, read_responses_uff, write_modes_uff,

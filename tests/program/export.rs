@@ -276,7 +276,7 @@ fn files_in_the_way_are_refused() {
     let folder = scratch("refused");
     assert!(
         refused(&folder, "export ring.toml --to stl")
-            .contains("[possible values: vtu, uff, mtx, npz, op4, inp, mbdyn]")
+            .contains("[possible values: vtu, uff, mtx, npz, op4, dmig, inp, mbdyn]")
     );
     assert!(!folder.join("out").exists());
     let out = folder.join("out/ring");
@@ -392,6 +392,12 @@ fn a_condensed_housing_is_exported() {
     good(&folder, "export coupled.toml --to op4 --set condense.fixed_interface_modes=10");
     let other = refused(&folder, "export coupled.toml --to op4");
     assert!(other.starts_with("error: out/coupled/superelement.op4 is the result of an earlier run of other values"));
+    let shown = good(&folder, "export coupled.toml --to dmig --set condense.fixed_interface_modes=10");
+    assert!(shown.contains("wrote out/coupled/superelement.bdf\n"), "{shown}");
+    let bulk = fs::read_to_string(out.join("superelement.bdf")).unwrap();
+    let cards = |name: &str| bulk.lines().filter(|line| line.split(' ').next() == Some(name)).count();
+    // 24 ring nodes of three coordinates, ten modes, two matrices
+    assert_eq!((3 * cards("GRID*") + cards("SPOINT"), cards("SPOINT"), cards("DMIG")), (record.order(), 10, 2));
     // held by its feet: no inertia
     write_solid(&folder);
     let shown = good(&folder, "export solid.toml --to mbdyn");
@@ -401,7 +407,7 @@ fn a_condensed_housing_is_exported() {
     assert!(text.contains("ring0") && text.contains("ring7"), "names");
     let refusals = [("ring.toml", "a ring alone"), ("housing.toml", "a housing that nothing is attached to")];
     for (case, found) in refusals {
-        for format in ["op4", "mbdyn"] {
+        for format in ["op4", "dmig", "mbdyn"] {
             assert_eq!(
                 refused(&folder, &format!("export {case} --to {format}")),
                 format!(

@@ -1,6 +1,7 @@
 //! Computed against closed forms, published values, other methods and other programs' numbers.
 
 mod assembly;
+mod centre_nodes;
 mod craig_bampton;
 mod element_convergence;
 mod energy;

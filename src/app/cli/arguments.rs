@@ -364,6 +364,8 @@ pub enum ExportFormat {
     Npz,
     /// The condensed housing's matrices as Nastran's OUTPUT4 file
     Op4,
+    /// The condensed housing as Nastran bulk data with DMIG matrices
+    Dmig,
     /// The housing as an input file of CalculiX or Abaqus
     Inp,
     /// The condensed housing as a modal body of MBDyn

@@ -176,6 +176,8 @@ fn key(matrices: &SystemMatrices, boundary: &Boundary, choice: BasisChoice, plac
     whole(&mut sum, &partition.driven);
     whole(&mut sum, &partition.interior);
     sparse(&mut sum, &partition.tie);
+    whole(&mut sum, &partition.mean.coordinates);
+    sparse(&mut sum, &partition.mean.weights);
     if let Some(attached) = boundary.attached() {
         dense(&mut sum, attached.stiffness);
         dense(&mut sum, attached.mass);

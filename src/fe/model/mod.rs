@@ -2,6 +2,7 @@
 //! between ring and housing.
 
 mod attach;
+mod centre;
 mod confined;
 mod curved;
 mod error;
@@ -9,6 +10,7 @@ mod flat;
 mod frame;
 mod housing;
 mod link;
+mod mean;
 mod overlap;
 mod parts;
 mod plates;
@@ -24,10 +26,12 @@ mod surface;
 mod tie;
 mod trapezoid;
 
+pub use centre::{CENTRE_COORDINATES, CentreNode, CentreTie};
 pub use error::ModelError;
 pub use flat::FlatLayer;
 pub use frame::RingFrame;
 pub use housing::{HousingDescription, HousingModel, PlaneModel};
+pub use mean::MeanTie;
 pub use overlap::{Apart, Bodies, Crossing, Doubled, MixedOrders, Overlap, OverlapRule, Touching};
 pub use parts::{HousingElement, HousingElements, HousingPart};
 pub use ring::{RadialSupport, Ring, RingError, RingRows, RingSpaceRows, RingStrain, RingSupport, SpringShare};

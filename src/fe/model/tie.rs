@@ -19,7 +19,7 @@
 //!
 //! How the degrees of freedom of a housing split at its interface, and nodes of the mesh as one.
 
-use super::{HousingModel, ModelError, Ring, RingFrame, RingSeat, Rings};
+use super::{HousingModel, MeanTie, ModelError, Ring, RingFrame, RingSeat, Rings};
 use crate::fe::mesh::Mesh;
 use crate::numerics::Brief;
 use crate::numerics::linalg::{SparseMatrix, TripletBuilder};
@@ -332,6 +332,8 @@ pub struct HousingPartition {
     pub interior: Vec<usize>,
     /// T: displacements of `driven` from the interface coordinates [driven x interface].
     pub tie: SparseMatrix,
+    /// Interface coordinates that follow the interior instead of driving it; their columns of T are empty.
+    pub mean: Box<MeanTie>,
 }
 
 impl HousingPartition {
@@ -340,7 +342,8 @@ impl HousingPartition {
         let mut is_driven = vec![false; model.dof()];
         driven.iter().for_each(|&dof| is_driven[dof] = true);
         let free = model.free_dofs().into_iter();
-        Self { interior: free.filter(|&dof| !is_driven[dof]).collect(), driven, tie }
+        let interior = free.filter(|&dof| !is_driven[dof]).collect();
+        Self { interior, driven, tie, mean: Box::default() }
     }
 }
 

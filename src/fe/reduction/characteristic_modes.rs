@@ -13,7 +13,7 @@
 //! alone would hold no rigid motion, and the condensed housing would be tied to the ground.
 
 use super::interior_basis::{Attached, interface_matrices};
-use super::substructure::normalised;
+use super::parts::normalised;
 use super::{ReductionError, Substructure};
 use crate::numerics::linalg::{DenseMatrix, symmetric_generalised_eigen};
 use schemars::JsonSchema;

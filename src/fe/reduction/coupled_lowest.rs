@@ -14,7 +14,7 @@
 //! attached.
 
 use super::interior_basis::with_amplitudes;
-use super::substructure::symmetric;
+use super::parts::symmetric;
 use super::{CharacteristicModes, InteriorBasis, ReductionError};
 use crate::numerics::linalg::{DenseCholesky, DenseMatrix, SymmetricSpectrum, congruent, symmetric_eigen};
 

@@ -10,8 +10,8 @@
 //! A condensed housing as others use it: small matrices on its interface and on modal amplitudes.
 
 use super::interior_basis::{BasisChoice, reduced_matrices};
+use super::parts::rows_of;
 use super::selection::choose_basis;
-use super::substructure::rows_of;
 use super::{Attached, InteriorBasis, ReductionError, Substructure};
 use crate::fe::assembly::SystemMatrices;
 use crate::fe::model::HousingPartition;

@@ -1,7 +1,7 @@
 use super::*;
 use crate::fe::reduction::BasisSize;
+use crate::fe::reduction::parts::dense;
 use crate::fe::reduction::samples::{every_third, partition, rod};
-use crate::fe::reduction::substructure::dense;
 use crate::numerics::linalg::{SymmetricSpectrum, TripletBuilder, symmetric_generalised_eigen};
 use std::f64::consts::TAU;
 

@@ -1,6 +1,6 @@
 use super::*;
+use crate::fe::reduction::parts::dense;
 use crate::fe::reduction::samples::{both_ends, rod};
-use crate::fe::reduction::substructure::dense;
 use crate::fe::reduction::{BasisChoice, BasisSize, choose_basis};
 use crate::numerics::Unwatched;
 use crate::numerics::linalg::symmetric_generalised_eigen;

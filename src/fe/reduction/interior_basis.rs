@@ -20,7 +20,7 @@
 //! Methods in Engineering 103 (2015) 79-93, fold it into the constraint modes instead, at no coordinate; that takes
 //! m^-1 k of the reduced structure, whose highest eigenvalues drown the correction where a ring of beams is attached.)
 
-use super::substructure::{diagonal, normalised, symmetric};
+use super::parts::{diagonal, normalised, symmetric};
 use super::{ReductionError, Substructure};
 use crate::numerics::Watch;
 use crate::numerics::linalg::{

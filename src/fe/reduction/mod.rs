@@ -1,6 +1,8 @@
 //! Craig-Bampton: a housing with thousands of degrees of freedom becomes a small matrix pair on its interface (the
 //! ring's displacements, or nodes of the mesh) and a few amplitudes, with an estimate of what that costs.
 
+#[cfg(test)]
+mod centre_tests;
 mod characteristic_modes;
 mod checks;
 mod coupled_lowest;
@@ -9,7 +11,9 @@ mod error;
 mod estimate;
 pub mod frf;
 mod interface_reduction;
+mod interior;
 mod interior_basis;
+mod parts;
 mod residual_flexibility;
 mod response_estimate;
 #[cfg(test)]

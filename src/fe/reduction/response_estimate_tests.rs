@@ -1,7 +1,7 @@
 use super::*;
 use crate::fe::reduction::frf::direct_response;
+use crate::fe::reduction::parts::dense;
 use crate::fe::reduction::samples::{both_ends, rod};
-use crate::fe::reduction::substructure::dense;
 use crate::fe::reduction::{BasisChoice, BasisSize, craig_bampton};
 use crate::numerics::linalg::TripletBuilder;
 

@@ -27,7 +27,7 @@ pub(super) fn rod(nodes: usize) -> SystemMatrices {
 pub(super) fn partition(nodes: usize) -> HousingPartition {
     let mut tie = TripletBuilder::new(1, 1);
     tie.add(0, 0, 1.0);
-    HousingPartition { driven: vec![0], interior: (1..nodes).collect(), tie: tie.build() }
+    HousingPartition { driven: vec![0], interior: (1..nodes).collect(), tie: tie.build(), mean: Box::default() }
 }
 
 /// The rod held by both ends.
@@ -35,7 +35,12 @@ pub(super) fn both_ends(nodes: usize) -> HousingPartition {
     let mut tie = TripletBuilder::new(2, 2);
     tie.add(0, 0, 1.0);
     tie.add(1, 1, 1.0);
-    HousingPartition { driven: vec![0, nodes - 1], interior: (1..nodes - 1).collect(), tie: tie.build() }
+    HousingPartition {
+        driven: vec![0, nodes - 1],
+        interior: (1..nodes - 1).collect(),
+        tie: tie.build(),
+        mean: Box::default(),
+    }
 }
 
 /// The rod with a spring to the ground at its middle.
@@ -52,7 +57,12 @@ pub(super) fn every_third(nodes: usize) -> HousingPartition {
     let driven: Vec<usize> = (0..nodes).step_by(3).collect();
     let mut tie = TripletBuilder::new(driven.len(), driven.len());
     (0..driven.len()).for_each(|place| tie.add(place, place, 1.0));
-    HousingPartition { interior: (0..nodes).filter(|node| node % 3 != 0).collect(), tie: tie.build(), driven }
+    HousingPartition {
+        interior: (0..nodes).filter(|node| node % 3 != 0).collect(),
+        tie: tie.build(),
+        mean: Box::default(),
+        driven,
+    }
 }
 
 /// Stiffness and mass of masses that are attached to an interface, neighbours joined by springs; `ground` holds the first.

@@ -1,6 +1,6 @@
 use super::*;
+use crate::fe::reduction::parts::dense;
 use crate::fe::reduction::samples::{every_third, rod, train};
-use crate::fe::reduction::substructure::dense;
 use crate::fe::reduction::{
     Attached, BasisChoice, BasisSize, CraigBampton, InterfaceReduction, InterfaceSize, choose_basis,
 };

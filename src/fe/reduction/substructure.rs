@@ -10,13 +10,17 @@
 //! k_bb = T^T K_bb T + (K_ib T)^T Psi
 //! m_bb = T^T M_bb T + (M_ib T)^T Psi + Psi^T A
 //! ```
+//!
+//! Interface coordinates that are means `W u` of the interior (see [`MeanTie`](crate::fe::model::MeanTie)) are held with the
+//! interface: their constraint modes are the motions of least strain energy with `W Psi = 1`, and `k_bb` has what holds them.
 
 use super::ReductionError;
+use super::interior::Interior;
+use super::parts::{add_columns, columns_of, dense, symmetric};
 use crate::fe::assembly::SystemMatrices;
 use crate::fe::model::HousingPartition;
 use crate::numerics::linalg::{
-    DenseMatrix, EigenPairs, EigenProblem, LinalgError, SparseCholesky, SparseMatrix, congruence, sparse_times_dense,
-    submatrix, symmetric_eigen, transpose_times_dense,
+    DenseMatrix, EigenPairs, SparseMatrix, congruence, sparse_times_dense, submatrix, transpose_times_dense,
 };
 use crate::numerics::{Unwatched, Watch};
 use faer::{MatMut, MatRef};
@@ -25,18 +29,13 @@ use faer::{MatMut, MatRef};
 /// modes.
 const BLOCK: usize = 32;
 
-/// Relative error of static solutions above which an interior is refused: fixed-interface eigenvalues are right to as much,
-/// their frequencies to half of it.
-const LARGEST_CONTRACTION: f64 = 1e-4;
-
 /// A housing split into interface and interior, with the factor of its interior.
 #[derive(Debug, Clone)]
 pub struct Substructure {
     /// How the degrees of freedom were split.
     pub(crate) partition: HousingPartition,
-    factor: SparseCholesky,
-    /// K_ii and M_ii.
-    pub(super) interior: EigenProblem,
+    /// K_ii and M_ii with the factor, and what holds the interior.
+    pub(super) interior: Interior,
     /// M_ib T [interior x interface].
     mass_ib: SparseMatrix,
     /// Constraint modes Psi [interior x interface].
@@ -77,27 +76,8 @@ impl Substructure {
             let what = "the interface has no free degree of freedom: every one of its nodes is fixed or tied";
             return Err(ReductionError::Refused(what.to_owned()));
         }
-        let (k_ii, m_ii) = (submatrix(k, i, i), submatrix(m, i, i));
-        let dof = |row: usize| i.get(row).copied().unwrap_or(0);
-        let soft = |row, contraction| ReductionError::SoftInterior {
-            dof: dof(row),
-            error: contraction,
-            limit: LARGEST_CONTRACTION,
-        };
-        let floating = |error| match error {
-            LinalgError::NotPositiveDefinite { pivot, .. } => {
-                ReductionError::FloatingInterior { interior: i.len(), dof: dof(pivot) }
-            }
-            LinalgError::IllConditioned { row, contraction, .. } => soft(row, contraction),
-            other => other.into(),
-        };
         watch.stage("factor");
-        let factor = SparseCholesky::new(&k_ii).map_err(floating)?;
-        if factor.contraction() > LARGEST_CONTRACTION {
-            return Err(soft(factor.weakest_row(), factor.contraction()));
-        }
-        let interior = EigenProblem::with_factor(&k_ii, &m_ii, &factor)?;
-        drop((k_ii, m_ii));
+        let interior = Interior::new(matrices, partition)?;
         let stiffness_ib = (&submatrix(k, i, b) * tie).to_csc();
         let mass_ib = (&submatrix(m, i, b) * tie).to_csc();
         let driven = |a: &SparseMatrix| dense(&congruence(&submatrix(a, b, b), tie));
@@ -106,7 +86,6 @@ impl Substructure {
             mass: driven(m),
             constraint_modes: DenseMatrix::zeros(i.len(), tie.cols()),
             partition: partition.clone(),
-            factor,
             interior,
             mass_ib,
         };
@@ -120,11 +99,24 @@ impl Substructure {
         for first in (0..order).step_by(BLOCK) {
             watch.fraction(first as f64 / order as f64);
             let width = BLOCK.min(order - first);
-            let mut modes = columns_of(stiffness_ib, first, width);
-            modes *= faer::Scale(-1.0);
-            self.factor.solve_columns(&mut modes)?;
+            let mut pulled = columns_of(stiffness_ib, first, width);
+            let lift = self.interior.lift(first, width);
+            if let Some(lift) = &lift {
+                pulled += self.interior.stiffness_times(lift);
+            }
+            pulled *= faer::Scale(-1.0);
+            let mut modes = self.interior.solve(pulled)?;
+            if let Some(lift) = &lift {
+                modes += lift;
+            }
             self.constraint_modes.subcols_mut(first, width).copy_from(&modes);
-            let k = transpose_times_dense(stiffness_ib, &modes);
+            let mut k = transpose_times_dense(stiffness_ib, &modes);
+            if lift.is_some() {
+                // the interior is in equilibrium but for what holds the means
+                let mut holding = self.interior.stiffness_times(&modes);
+                add_columns(&mut holding, stiffness_ib, first);
+                k += self.interior.lifted(&holding);
+            }
             add_block(self.stiffness.subcols_mut(first, width), k.as_ref());
             let mut follow = self.interior.mass_times(&modes);
             add_columns(&mut follow, &self.mass_ib, first);
@@ -145,9 +137,9 @@ impl Substructure {
         self.partition.tie.cols()
     }
 
-    /// Number of interior degrees of freedom.
+    /// Number of interior degrees of freedom, each mean that is held less by one.
     pub(crate) fn interior_dof(&self) -> usize {
-        self.partition.interior.len()
+        self.interior.independent()
     }
 
     /// k_bb [interface x interface], N/m: the housing condensed statically (Guyan, AIAA Journal 3 (1965) 380).
@@ -155,13 +147,12 @@ impl Substructure {
         &self.stiffness
     }
 
-    /// `K_ii^-1 R` for `R` [interior x k].
+    /// `K_ii^-1 R` for `R` [interior x k]; means that are held stay zero.
     ///
     /// # Errors
     /// [`LinalgError::Shape`].
-    pub(crate) fn solve_interior(&self, mut r: DenseMatrix) -> Result<DenseMatrix, ReductionError> {
-        self.factor.solve_columns(&mut r)?;
-        Ok(r)
+    pub(crate) fn solve_interior(&self, r: DenseMatrix) -> Result<DenseMatrix, ReductionError> {
+        self.interior.solve(r)
     }
 
     /// `A U`, the inertia of the interior that follows interface motions `U` [interface x k].
@@ -186,60 +177,10 @@ impl Substructure {
     /// The same; `watch` is told which part is found.
     pub(super) fn lowest_modes_watched(&self, count: usize, watch: &dyn Watch) -> Result<EigenPairs, ReductionError> {
         watch.stage("fixed-interface modes");
-        Ok(self.interior.lowest_told(count, &|part| watch.fraction(part))?)
-    }
-}
-
-/// A sparse matrix with all its zeros.
-pub(super) fn dense(sparse: &SparseMatrix) -> DenseMatrix {
-    columns_of(sparse, 0, sparse.cols())
-}
-
-/// Some columns of a sparse matrix with all their zeros.
-fn columns_of(sparse: &SparseMatrix, first: usize, width: usize) -> DenseMatrix {
-    let mut full = DenseMatrix::zeros(sparse.rows(), width);
-    add_columns(&mut full, sparse, first);
-    full
-}
-
-/// Adds columns of a sparse matrix from `first` on.
-fn add_columns(to: &mut DenseMatrix, sparse: &SparseMatrix, first: usize) {
-    for column in 0..to.ncols() {
-        if let Some(entries) = sparse.outer_view(first + column) {
-            for (row, &value) in entries.iter() {
-                to[(row, column)] += value;
-            }
-        }
+        self.interior.lowest(count, &|part| watch.fraction(part))
     }
 }
 
 fn add_block(mut to: MatMut<'_, f64>, block: MatRef<'_, f64>) {
     to += block;
-}
-
-/// A square matrix with these values on its diagonal.
-pub(super) fn diagonal(values: &[f64]) -> DenseMatrix {
-    DenseMatrix::from_fn(values.len(), values.len(), |row, column| if row == column { values[row] } else { 0.0 })
-}
-
-/// Some rows of a matrix.
-pub(super) fn rows_of(a: &DenseMatrix, rows: &[usize]) -> DenseMatrix {
-    DenseMatrix::from_fn(rows.len(), a.ncols(), |row, column| a[(rows[row], column)])
-}
-
-/// Combinations V of vectors with the Gram matrix G [n x n], `V^T G V = 1` [n x kept]. Those of which the squared length is
-/// below `dependent` of the longest are left out.
-pub(super) fn normalised(gram: &DenseMatrix, dependent: f64) -> Result<DenseMatrix, ReductionError> {
-    let spectrum = symmetric_eigen(gram)?;
-    let longest = spectrum.values.last().copied().unwrap_or(0.0);
-    let values = spectrum.values.iter().enumerate();
-    let kept: Vec<usize> = values.filter(|(_, value)| **value > dependent * longest).map(|(place, _)| place).collect();
-    Ok(DenseMatrix::from_fn(gram.nrows(), kept.len(), |row, column| {
-        spectrum.vectors[(row, kept[column])] / spectrum.values[kept[column]].sqrt()
-    }))
-}
-
-/// `(A + A^T) / 2`.
-pub(super) fn symmetric(a: &DenseMatrix) -> DenseMatrix {
-    DenseMatrix::from_fn(a.nrows(), a.ncols(), |row, column| 0.5 * (a[(row, column)] + a[(column, row)]))
 }

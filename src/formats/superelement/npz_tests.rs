@@ -63,7 +63,7 @@ fn labels_come_back() {
     let interface = vec![
         DofLabel { body: DofBody::Ring, node: 0, direction: DofDirection::Polar(1), ..known },
         DofLabel { direction: DofDirection::About(2), position: [f64::NAN; 3], ..known },
-        DofLabel::interface(2),
+        DofLabel::centre(1, 4, [0.1, -0.2, 0.3]),
     ];
     let sample = record();
     let record = SuperelementRecord::of_matrices(sample.stiffness, sample.mass, interface.clone()).unwrap();

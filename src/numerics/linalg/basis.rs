@@ -172,6 +172,7 @@ mod tests {
             offsets: (0..=order).collect(),
             rows: (0..order).collect(),
             values: (0..order).map(|row| 1.0 + f64::from(row)).collect(),
+            followers: None,
         }
     }
 

@@ -1,7 +1,9 @@
 //! Sparse Cholesky factorisation `P A P^T = L L^T` by faer (supernodal, nested dissection).
 
 use super::factor::LARGEST_CONTRACTION;
-use super::{DenseMatrix, Factor, FactorMemory, Kind, LinalgError, Ordering, SparseMatrix, SymmetricMatrix, analysed};
+use super::{
+    DenseMatrix, Factor, FactorMemory, Followers, Kind, LinalgError, Ordering, SparseMatrix, SymmetricMatrix, analysed,
+};
 use std::sync::Arc;
 
 /// Factor of a symmetric positive definite sparse matrix in double precision; serves any number of right-hand sides.
@@ -18,13 +20,22 @@ impl SparseCholesky {
     /// [`LinalgError::NotPositiveDefinite`] with the row of `a` at which it stopped, [`LinalgError::IllConditioned`] for a
     /// matrix of which round-off leaves not one digit to solve with, or [`LinalgError::Factorisation`].
     pub fn new(a: &SparseMatrix) -> Result<Self, LinalgError> {
+        Self::with_followers(a, None)
+    }
+
+    /// The same of a matrix with unknowns that follow its own.
+    ///
+    /// # Errors
+    /// As [`SparseCholesky::new`].
+    pub(crate) fn with_followers(a: &SparseMatrix, followers: Option<&Followers>) -> Result<Self, LinalgError> {
         let (expected, found) = (a.rows(), a.cols());
         if found != expected || !a.is_csc() {
             let what = "matrix to factorise (square, compressed columns)";
             return Err(LinalgError::Shape { what, expected, found });
         }
         let ordering = Ordering::of(a)?;
-        let permuted = SymmetricMatrix::permuted(a, &ordering);
+        let mut permuted = SymmetricMatrix::permuted(a, &ordering);
+        permuted.followers = followers.map(|followers| followers.permuted(&ordering));
         let symbolic = Arc::new(analysed(&permuted)?);
         let row = |place: usize| ordering.old.get(place).map_or(0, |&row| row as usize);
         let memory = FactorMemory::default();

@@ -1,6 +1,7 @@
 //! A factor with a measure of how good it is, in single precision where that serves.
 
 use super::dense::pseudo_random;
+use super::followers::Correction;
 use super::numeric::NumericFactor;
 use super::symbolic::SMALL;
 use super::{Kind, LinalgError, Symbolic, SymmetricMatrix};
@@ -38,6 +39,8 @@ pub(super) struct Factor {
     /// Where its entries are.
     pub symbolic: Arc<Symbolic>,
     numbers: Numbers,
+    /// What followers add to solutions and counts.
+    correction: Option<Correction>,
     /// Estimate of the spectral radius of `I - F^-1 A`.
     pub contraction: f64,
     /// Row in which round-off is felt most: the largest entry of the error that refinement reduces least.
@@ -140,7 +143,9 @@ impl Factor {
     }
 
     pub(super) fn measured(symbolic: &Arc<Symbolic>, a: &SymmetricMatrix, numbers: Numbers) -> Self {
-        let mut factor = Self { symbolic: Arc::clone(symbolic), numbers, contraction: f64::INFINITY, weakest: 0 };
+        let mut factor =
+            Self { symbolic: Arc::clone(symbolic), numbers, correction: None, contraction: f64::INFINITY, weakest: 0 };
+        factor.correction = a.followers.as_ref().map(|followers| followers.correction(|b| factor.solve(b)));
         let mut error = pseudo_random(a.order(), PROBES.0, 0);
         for _ in 0..PROBES.1 {
             let before = error.norm_l2();
@@ -177,19 +182,23 @@ impl Factor {
     }
 
     /// `F^-1 B` in place for `B` [n x k].
-    pub(super) fn solve(&self, b: MatMut<'_, f64>) {
+    pub(super) fn solve(&self, mut b: MatMut<'_, f64>) {
         match &self.numbers {
-            Numbers::Single(numbers) => numbers.solve(&self.symbolic, b),
-            Numbers::Double(numbers) => numbers.solve(&self.symbolic, b),
+            Numbers::Single(numbers) => numbers.solve(&self.symbolic, b.as_mut()),
+            Numbers::Double(numbers) => numbers.solve(&self.symbolic, b.as_mut()),
+        }
+        if let Some(correction) = &self.correction {
+            correction.apply(b);
         }
     }
 
     /// Number of negative eigenvalues of the matrix.
     pub(super) fn negative(&self) -> usize {
-        match &self.numbers {
+        let alone = match &self.numbers {
             Numbers::Single(numbers) => numbers.negative(&self.symbolic),
             Numbers::Double(numbers) => numbers.negative(&self.symbolic),
-        }
+        };
+        self.correction.as_ref().map_or(alone, |correction| correction.negative(alone))
     }
 }
 

@@ -18,6 +18,7 @@ mod dense;
 mod eigen;
 mod error;
 mod factor;
+mod followers;
 mod harmonic;
 mod idle;
 mod lowest;
@@ -38,6 +39,7 @@ pub use eigen::{CountCheck, EigenPairs, EigenProblem, EigenTimes};
 pub use error::LinalgError;
 pub(in crate::numerics::linalg) use error::gigabytes;
 pub(in crate::numerics::linalg) use factor::{Factor, FactorMemory};
+pub(crate) use followers::Followers;
 pub use harmonic::{
     ComplexSolution, HarmonicDamping, HarmonicError, HarmonicProblem, HarmonicSolution, HarmonicTimes, MotionDamping,
 };

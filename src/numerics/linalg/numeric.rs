@@ -62,8 +62,11 @@ impl<T: Precision> NumericFactor<T> {
     ) -> Result<Self, LinalgError> {
         let order = a.order();
         let failed = |reason| LinalgError::Factorisation { order, reason };
-        let scale: Vec<f64> =
-            a.diagonal().into_iter().map(|entry| if entry == 0.0 { 1.0 } else { entry.abs().sqrt().recip() }).collect();
+        let scale: Vec<f64> = a
+            .stored_diagonal()
+            .into_iter()
+            .map(|entry| if entry == 0.0 { 1.0 } else { entry.abs().sqrt().recip() })
+            .collect();
         let scaled: Vec<T> = (0..order)
             .flat_map(|column| {
                 let scale = &scale;

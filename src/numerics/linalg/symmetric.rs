@@ -2,7 +2,7 @@
 //! the memory of both triangles with 64-bit ones, and its product with blocks of vectors.
 
 use super::ordering::{ABSENT, Ordering};
-use super::{DenseMatrix, SparseMatrix};
+use super::{DenseMatrix, Followers, SparseMatrix};
 use faer::prelude::*;
 use faer::{MatMut, MatRef};
 use multiversion::{multiversion, target::target_cfg_f};
@@ -24,6 +24,8 @@ pub(super) struct SymmetricMatrix {
     pub rows: Vec<u32>,
     /// Values.
     pub values: Vec<f64>,
+    /// What unknowns that follow the others add.
+    pub followers: Option<Followers>,
 }
 
 impl SymmetricMatrix {
@@ -35,6 +37,7 @@ impl SymmetricMatrix {
             offsets: Vec::with_capacity(a.cols() + 1),
             rows: Vec::with_capacity(stored),
             values: Vec::with_capacity(stored),
+            followers: None,
         };
         matrix.offsets.push(0);
         let mut column: Vec<(u32, f64)> = Vec::new();
@@ -65,18 +68,32 @@ impl SymmetricMatrix {
         rows.zip(self.values[range].iter().copied())
     }
 
-    /// Diagonal [n].
-    pub(super) fn diagonal(&self) -> Vec<f64> {
+    /// Diagonal of what is stored [n].
+    pub(super) fn stored_diagonal(&self) -> Vec<f64> {
         let first = |column: usize| self.column(column).next().filter(|entry| entry.0 == column);
         (0..self.order()).map(|column| first(column).map_or(0.0, |entry| entry.1)).collect()
     }
 
-    /// `self - sigma other`; the pattern is that of both.
+    /// Diagonal [n].
+    pub(super) fn diagonal(&self) -> Vec<f64> {
+        let mut diagonal = self.stored_diagonal();
+        if let Some(followers) = &self.followers {
+            followers.add_diagonal(&mut diagonal);
+        }
+        diagonal
+    }
+
+    /// `self - sigma other`; the pattern is that of both, and the followers are the same.
     pub(super) fn shifted(&self, sigma: f64, other: &Self) -> Self {
         let mut sum = Self {
             offsets: vec![0],
             rows: Vec::with_capacity(self.rows.len()),
             values: Vec::with_capacity(self.rows.len()),
+            followers: self
+                .followers
+                .as_ref()
+                .zip(other.followers.as_ref())
+                .map(|(own, other)| own.shifted(sigma, other)),
         };
         for column in 0..self.order() {
             let mut others = other.column(column).peekable();
@@ -116,9 +133,12 @@ impl SymmetricMatrix {
     /// `Y = A X` for `X` and `Y` [n x k]. Blocks of columns are independent: the result does not depend on the number of
     /// threads.
     pub(super) fn times_into(&self, x: MatRef<'_, f64>, y: MatMut<'_, f64>) {
-        x.par_col_chunks(LANES)
-            .zip(y.par_col_chunks_mut(LANES))
-            .for_each(|(x, y)| SCRATCH.with_borrow_mut(|scratch| self.times_block(x, y, scratch)));
+        x.par_col_chunks(LANES).zip(y.par_col_chunks_mut(LANES)).for_each(|(x, mut y)| {
+            SCRATCH.with_borrow_mut(|scratch| self.times_block(x, y.rb_mut(), scratch));
+            if let Some(followers) = &self.followers {
+                followers.add_times(x, y);
+            }
+        });
     }
 
     /// Root of the sum of the squares of the terms `x_i a_ij x_j` of `x^T A x` for every column of `X` [n x k]: its
@@ -128,6 +148,7 @@ impl SymmetricMatrix {
             offsets: self.offsets.clone(),
             rows: self.rows.clone(),
             values: self.values.iter().map(|value| value * value).collect(),
+            followers: None,
         };
         let squares = DenseMatrix::from_fn(x.nrows(), x.ncols(), |i, j| x[(i, j)] * x[(i, j)]);
         let (sums, diagonal) = (squared.times(squares.as_ref()), squared.diagonal());
@@ -137,7 +158,11 @@ impl SymmetricMatrix {
             // the entries a_ij and a_ji are one, with one error: their squares count four times, not twice
             terms.map(|((x, sum), diagonal)| x * (2.0 * sum - diagonal * x)).sum()
         };
-        (0..x.ncols()).map(|column| scatter(column).sqrt()).collect()
+        let further = |column: usize| {
+            let column: Vec<f64> = x.col(column).iter().copied().collect();
+            self.followers.as_ref().map_or(0.0, |followers| followers.energy_scatter(&column))
+        };
+        (0..x.ncols()).map(|column| (scatter(column) + further(column)).sqrt()).collect()
     }
 
     fn times_block(&self, x: MatRef<'_, f64>, mut y: MatMut<'_, f64>, scratch: &mut Scratch) {
@@ -222,7 +247,12 @@ mod tests {
 
     /// [[2, 1, 0], [1, 3, -2], [0, -2, 0]], the last diagonal entry not stored.
     fn sample() -> SymmetricMatrix {
-        SymmetricMatrix { offsets: vec![0, 2, 4, 4], rows: vec![0, 1, 1, 2], values: vec![2.0, 1.0, 3.0, -2.0] }
+        SymmetricMatrix {
+            offsets: vec![0, 2, 4, 4],
+            rows: vec![0, 1, 1, 2],
+            values: vec![2.0, 1.0, 3.0, -2.0],
+            followers: None,
+        }
     }
 
     #[test]
@@ -240,9 +270,10 @@ mod tests {
     #[test]
     fn a_pattern_covers_its_parts() {
         let whole = sample();
-        let part = SymmetricMatrix { offsets: vec![0, 1, 2, 2], rows: vec![1, 1], values: vec![1.0, 1.0] };
-        let other = SymmetricMatrix { offsets: vec![0, 0, 0, 1], rows: vec![2], values: vec![1.0] };
-        let corner = SymmetricMatrix { offsets: vec![0, 1, 1, 1], rows: vec![0], values: vec![1.0] };
+        let part =
+            SymmetricMatrix { offsets: vec![0, 1, 2, 2], rows: vec![1, 1], values: vec![1.0, 1.0], followers: None };
+        let other = SymmetricMatrix { offsets: vec![0, 0, 0, 1], rows: vec![2], values: vec![1.0], followers: None };
+        let corner = SymmetricMatrix { offsets: vec![0, 1, 1, 1], rows: vec![0], values: vec![1.0], followers: None };
         assert!(whole.covers(&whole) && whole.covers(&part) && whole.covers(&corner));
         assert!(!part.covers(&corner) && !whole.covers(&other));
     }

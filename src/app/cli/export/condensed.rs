@@ -8,7 +8,7 @@ use crate::app::error::ComputeError;
 use crate::app::scene::CondensedHousing;
 use crate::formats::{
     DofLabel, FormatError, MbdynReference, Op4Format, SuperelementRecord, write_dofs_csv, write_mbdyn_fem,
-    write_superelement_op4,
+    write_superelement_dmig, write_superelement_op4,
 };
 use crate::report::mass_in_words;
 
@@ -57,6 +57,25 @@ pub(super) fn op4(case: &Case, folder: &OutputFolder, progress: &Progress) -> Re
         files: vec![("superelement.op4", of_matrices), ("superelement_dofs.csv", of_rows)],
         summary: format!("{}: {matrices}", counts(&record)),
     })
+}
+
+/// `superelement.bdf`.
+pub(super) fn dmig(case: &Case, folder: &OutputFolder, progress: &Progress) -> Result<Export, CliError> {
+    let record = condensed(case, progress)?;
+    write_superelement_dmig(&folder.path.join("superelement.bdf"), &record).map_err(of_dmig)?;
+    let order = record.order();
+    let what = format!("grid points, scalar points and DMIG matrices [{order} x {order}] of the condensed housing, SI");
+    Ok(Export { files: vec![("superelement.bdf", what.clone())], summary: format!("{}: {what}", counts(&record)) })
+}
+
+/// What Nastran's points do not hold: wrong input, unless the file failed.
+fn of_dmig(error: FormatError) -> CliError {
+    let is_input = !matches!(error, FormatError::File(_));
+    let wrong = CliError { is_input, ..CliError::input(format!("--to dmig: {error}")) };
+    if !is_input {
+        return wrong;
+    }
+    wrong.with_help("--to op4, and superelement.npz of `plummer condense`, hold coordinates of any direction")
 }
 
 /// `superelement.fem`. A free housing's shapes are relative to the first interface node with six motions, if there is one.

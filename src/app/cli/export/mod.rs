@@ -37,7 +37,7 @@ pub(crate) fn export(from: &Path, to: ExportFormat, options: &Options) -> Result
     let started = std::time::Instant::now();
     let source = Source::open(from, options)?;
     let case = &source.case;
-    if let ExportFormat::Op4 | ExportFormat::Mbdyn = to {
+    if let ExportFormat::Op4 | ExportFormat::Dmig | ExportFormat::Mbdyn = to {
         condensed::can_condense(case, to)?;
     }
     let mut job = Job { started, ..Job::new("export", case, options, &progress) };
@@ -59,6 +59,7 @@ pub(crate) fn export(from: &Path, to: ExportFormat, options: &Options) -> Result
         ExportFormat::Vtu => shapes::vtu(&source, folder, &progress),
         ExportFormat::Uff => shapes::uff(&source, folder, &progress),
         ExportFormat::Op4 => condensed::op4(case, folder, &progress),
+        ExportFormat::Dmig => condensed::dmig(case, folder, &progress),
         ExportFormat::Inp => deck::inp(case, folder, &progress),
         ExportFormat::Mbdyn => condensed::mbdyn(case, folder, &progress),
     };
@@ -101,6 +102,7 @@ impl ExportFormat {
             Self::Vtu => of_bodies("modes.vtu", "ring.vtu"),
             Self::Uff => of_bodies("modes.uff", "ring.uff"),
             Self::Op4 => vec!["superelement.op4", "superelement_dofs.csv"],
+            Self::Dmig => vec!["superelement.bdf"],
             Self::Inp => vec!["housing.inp"],
             Self::Mbdyn => vec!["superelement.fem"],
         }

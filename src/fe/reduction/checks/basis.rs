@@ -2,7 +2,7 @@
 //!
 //! All checks of a condensed housing.
 
-use super::super::substructure::rows_of;
+use super::super::parts::rows_of;
 use super::matrices::{check_matrices, largest, pairs};
 use super::{Check, CraigBampton, InterfaceReduction, ReductionError, RigidMotions};
 use crate::fe::assembly::SystemMatrices;
@@ -116,8 +116,10 @@ fn statics(condensed: &CraigBampton, matrices: &SystemMatrices) -> [f64; 2] {
     let driven = rows_of(&x, &partition.driven);
     let k_ib = submatrix(k, &partition.interior, &partition.driven);
     let pulled = sparse_times_dense(&k_ib, &driven);
-    let residual = condensed.interior_of(&force);
-    let reaction = transpose_times_dense(&partition.tie, &rows_of(&force, &partition.driven));
+    let inside = condensed.interior_of(&force);
+    let residual = substructure.interior.working(&inside);
+    let reaction = transpose_times_dense(&partition.tie, &rows_of(&force, &partition.driven))
+        + substructure.interior.lifted(&inside);
     let expected = condensed.superelement.stiffness.subrows(0, interface) * &coordinates;
     // the reaction of a free body may be zero; that of its interface alone is not
     let k_bb = submatrix(k, &partition.driven, &partition.driven);

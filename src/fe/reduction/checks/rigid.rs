@@ -1,6 +1,6 @@
 //! Rigid-body motions of a superelement, and its mass properties, against those of the mesh.
 
-use super::super::substructure::symmetric;
+use super::super::parts::symmetric;
 use super::matrices::{largest, pairs};
 use super::{Check, CraigBampton, InterfaceReduction, ReductionError, Superelement};
 use crate::fe::assembly::SystemMatrices;

@@ -196,6 +196,21 @@ fn a_node_that_is_held_does_not_move_in_the_shapes() {
     );
 }
 
+/// Centre nodes have names, as nodes of the mesh have numbers, and one of them may be held.
+#[test]
+fn centre_nodes_are_nodes_of_their_own() {
+    let mut record = free_body();
+    for (row, label) in record.interface.iter_mut().enumerate() {
+        *label = DofLabel::centre(row as u64 / 6, row % 6, label.position);
+    }
+    let (summary, text) = written_from(&record, MbdynReference::Node { body: DofBody::Centre, node: 1 });
+    assert_eq!(words(&text, 2).unwrap(), ["centre0", "centre1"]);
+    assert_eq!(summary.nodes, 2);
+    for shape in numbers(&text, 8).chunks_exact(12) {
+        assert_eq!(shape[6..], [0.0; 6]);
+    }
+}
+
 /// A node of the field moves by its rows, without rotations; one that the interface has too is there once.
 #[test]
 fn nodes_of_the_field_come_after_those_of_the_interface() {

@@ -2,8 +2,8 @@
 
 use super::super::bound::ROUNDING;
 use super::super::{
-    CountCheck, DenseMatrix, EigenPairs, EigenTimes, Factor, LinalgError, Ordering, SparseCholesky, SparseMatrix,
-    Symbolic, SymmetricMatrix, analysed, gigabytes, symbolic,
+    CountCheck, DenseMatrix, EigenPairs, EigenTimes, Factor, Followers, LinalgError, Ordering, SparseCholesky,
+    SparseMatrix, Symbolic, SymmetricMatrix, analysed, gigabytes, symbolic,
 };
 use std::sync::Arc;
 use std::time::Instant;
@@ -59,13 +59,14 @@ impl EigenProblem {
         })
     }
 
-    /// The problem of a stiffness that is factorised already: its order and its factor are used again.
+    /// The problem of a stiffness that is factorised already: its order and its factor are used again. `followers` are what
+    /// unknowns that follow those of K and M add to each; the factor knows those of K.
     ///
     /// # Errors
     /// As [`EigenProblem::new`]; [`LinalgError::Shape`] if the factor is that of another matrix.
     pub(crate) fn with_factor(
-        k: &SparseMatrix,
-        m: &SparseMatrix,
+        [k, m]: [&SparseMatrix; 2],
+        followers: Option<[&Followers; 2]>,
         factor: &SparseCholesky,
     ) -> Result<Self, LinalgError> {
         let (expected, found) = (k.rows(), factor.order());
@@ -74,13 +75,17 @@ impl EigenProblem {
         }
         let started = Instant::now();
         let (ordering, factor) = factor.shared();
-        let stiffness = SymmetricMatrix::permuted(k, &ordering);
-        let mass = SymmetricMatrix::permuted(m, &ordering);
+        let mut stiffness = SymmetricMatrix::permuted(k, &ordering);
+        let mut mass = SymmetricMatrix::permuted(m, &ordering);
         let symbolic = if stiffness.covers(&mass) {
             Arc::clone(&factor.symbolic)
         } else {
             Arc::new(analysed(&stiffness.shifted(1.0, &mass))?)
         };
+        if let Some([of_stiffness, of_mass]) = followers {
+            stiffness.followers = Some(of_stiffness.permuted(&ordering));
+            mass.followers = Some(of_mass.permuted(&ordering));
+        }
         Ok(Self { ordering, stiffness, mass, symbolic, factor: Some(factor), order_s: started.elapsed().as_secs_f64() })
     }
 

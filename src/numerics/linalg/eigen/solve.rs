@@ -184,6 +184,9 @@ fn dense(a: &SymmetricMatrix) -> DenseMatrix {
             full[(column, row)] = value;
         }
     }
+    if let Some(followers) = &a.followers {
+        followers.add_dense(&mut full);
+    }
     full
 }
 
