@@ -70,8 +70,6 @@ pub(crate) struct SeenPlace {
 pub(crate) struct SeenByAll {
     /// Derivatives of X'.
     pub moved: [Vector3<f64>; 7],
-    /// Second derivatives of X'.
-    pub bent: [[Vector3<f64>; 7]; 7],
     /// Unit vectors outwards and around at the ball, in the inner ring's frame.
     pub outwards: Vector3<f64>,
     pub around: Vector3<f64>,
@@ -183,7 +181,7 @@ impl InnerFrame {
             }
         }
         let around = Vector3::new(-outwards.y, outwards.x, 0.0);
-        SeenByAll { moved, bent, outwards, around, radius, slope, bend }
+        SeenByAll { moved, outwards, around, radius, slope, bend }
     }
 }
 

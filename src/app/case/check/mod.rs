@@ -22,7 +22,7 @@ impl Case {
     /// # Errors
     /// The first [`BrokenRule`], in the order of the tables in the file's documentation.
     pub(crate) fn validate(&self) -> Result<(), BrokenRule> {
-        if self.housing.is_none() && self.ring.is_none() {
+        if self.housing.is_none() && self.ring.is_none() && self.bearing.is_none() {
             return Err(Rule::nothing_to_model().at("housing"));
         }
         report::title(&self.title)?;
