@@ -174,6 +174,7 @@ impl Case {
 
     /// What an equilibrium under the load needs.
     fn at_rest(&self, by: &str) -> Result<(&Ring, &Bearing, &Shaft), CaseError> {
+        self.in_the_plane()?;
         let ring = self.needed(by, "[ring]", self.ring.as_ref())?;
         let bearing = self.needed(by, "[bearing]", self.bearing.as_ref())?;
         let shaft = self.needed(by, "[shaft]", self.shaft.as_ref())?;

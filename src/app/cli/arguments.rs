@@ -78,8 +78,8 @@ Files:
   frf.uff   the same for test software (universal file, dataset 58)";
 
 const BEARING_EXAMPLE: &str = "\
-Example: an angular contact bearing of 40 degrees under thrust and weight, at 3000 rpm
-  plummer bearing examples/scenes/smooth.toml --rpm 3000 --hold-tilt --set bearing.contact_angle_deg=40 --set 'shaft.loads=[{ force = [0, 0, 20] }]'
+Example: the bearing of a case under thrust beside its weight, at 3000 rpm
+  plummer bearing examples/scenes/smooth.toml --rpm 3000 --set 'shaft.loads=[{ force = [0, 0, 20] }]'
 
 Both rings are rigid. The shaft has three displacements and two tilts; its weight acts at the bearing's centre.
 

@@ -4,6 +4,7 @@ use super::analyze::warn;
 use super::report::ReportFiles;
 use super::results::Job;
 use super::{CliError, Outcome, typed};
+use crate::app::commands::bearing::compute::without_round_off;
 use crate::app::commands::bearing::{BearingResult, bearing_report, compute_bearing};
 use crate::report::significant;
 use std::f64::consts::TAU;
@@ -39,8 +40,8 @@ fn summary(result: &BearingResult) -> String {
         digits(result.speed_rpm)
     )];
     let Some(taken) = result.equilibria.first() else { return lines.join("\n") };
-    let [x, y, z] = taken.displacement.translation.map(|part| digits(1e6 * part));
-    let [a, b] = taken.displacement.tilt.map(|part| digits(1e3 * part));
+    let [x, y, z] = without_round_off(taken.displacement.translation).map(|part| digits(1e6 * part));
+    let [a, b] = without_round_off(taken.displacement.tilt).map(|part| digits(1e3 * part));
     lines.push(format!("at rest: ({x}, {y}, {z}) \u{b5}m, tilt ({a}, {b}) mrad"));
     if taken.holding_load.iter().any(|load| load.abs() > 0.0) {
         let [hx, hy, hz, ha, hb] = taken.holding_load.map(digits);
@@ -50,8 +51,9 @@ fn summary(result: &BearingResult) -> String {
     let units = ["deg", "N", "N", "deg", "deg", "", "", "rpm", "rpm"];
     let mut rows = vec![columns.map(str::to_owned).to_vec(), units.map(str::to_owned).to_vec()];
     for ball in taken.bearings.iter().flat_map(|state| &state.balls) {
-        let angle =
-            |angle: Option<f64>| angle.map_or_else(|| "-".to_owned(), |angle| significant(angle.to_degrees(), 4));
+        let angle = |angle: Option<f64>| {
+            angle.map_or_else(|| "-".to_owned(), |angle| significant(rounded(angle.to_degrees()), 4))
+        };
         let rpm = |speed: f64| significant(speed * 60.0 / TAU, 5);
         rows.push(vec![
             significant(ball.azimuth.to_degrees().rem_euclid(360.0), 4),
@@ -67,19 +69,27 @@ fn summary(result: &BearingResult) -> String {
     }
     lines.extend(aligned(&rows));
     lines.push("stiffness over x, y, z (m), tilt about x, y (rad):".to_owned());
-    let rows: Vec<Vec<String>> =
-        taken.stiffness.iter().map(|row| row.iter().map(|&value| format!("{value:.4e}")).collect()).collect();
+    let rows: Vec<Vec<String>> = taken
+        .stiffness
+        .iter()
+        .map(|row| without_round_off(*row).iter().map(|&value| digits(value)).collect())
+        .collect();
     lines.extend(aligned(&rows));
     let orders = result.orders;
     lines.push(format!(
         "orders at the mean contact angle of {}\u{b0}: BPFO {}, BPFI {}, BSF {}, FTF {}",
-        significant(result.contact_angle.to_degrees(), 4),
+        significant(rounded(result.contact_angle.to_degrees()), 4),
         digits(orders.outer),
         digits(orders.inner),
         digits(orders.ball_spin),
         digits(orders.cage)
     ));
     lines.join("\n")
+}
+
+/// Degrees that are nothing but round-off as zero.
+fn rounded(degrees: f64) -> f64 {
+    if degrees.abs() < 1e-9 { 0.0 } else { degrees }
 }
 
 /// Rows with their cells under each other, on the right.

@@ -45,8 +45,10 @@ pub struct BearingResult {
     pub over_load: Vec<CurvePoint>,
     /// Over the speed, rpm; empty without speed.
     pub over_speed: Vec<CurvePoint>,
-    /// Over the preload force, N.
+    /// Over the preload: a force, N, or a displacement, m, where the case gives one.
     pub over_preload: Vec<CurvePoint>,
+    /// Whether the preload is a displacement.
+    pub preload_is_displacement: bool,
     /// What of the model may be meant otherwise, a sentence each.
     pub doubts: Vec<String>,
 }
@@ -54,7 +56,7 @@ pub struct BearingResult {
 /// Displacement and stiffness at one point of a curve; `None` where no equilibrium was found.
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct CurvePoint {
-    /// Factor of the load, speed (rpm) or preload force (N).
+    /// Factor of the load, speed (rpm), or preload (N, or m).
     pub at: f64,
     /// Displacement x, y, z (m) and tilt about x, y (rad).
     pub displacement: Option<[f64; 5]>,
@@ -101,6 +103,7 @@ pub fn compute_bearing(
         over_load: Vec::new(),
         over_speed: Vec::new(),
         over_preload: Vec::new(),
+        preload_is_displacement: matches!(scene.preload, Some(Preload::Displacement(_))),
         doubts: doubts(case, asked, &scene, &equilibria),
         equilibria,
     };
@@ -117,19 +120,26 @@ pub fn compute_bearing(
             curve(&speeds, |rpm| Ok((SpatialScene { speed: rpm * TAU / 60.0, ..scene.clone() }, load)))?;
     }
     watch.fraction(2.0 / 3.0);
-    let middle = match scene.preload {
-        Some(Preload::Force(force)) => force,
-        // of the size of the load, or of a usual light preload
-        _ => scene.load.force.iter().fold(0.0_f64, |most, part| most.max(part.abs())),
+    let size = scene.load.force.iter().fold(0.0_f64, |most, part| most.max(part.abs()));
+    let (middle, by): (f64, fn(f64) -> Preload) = match scene.preload {
+        Some(Preload::Displacement(displacement)) => (displacement, Preload::Displacement),
+        Some(Preload::Force(force)) => (force, Preload::Force),
+        None => (size, Preload::Force),
     };
     if middle > 0.0 {
-        result.over_preload = curve(&geometric(PRELOADS.map(|share| share * middle)), |force| {
-            let scene = SpatialScene { preload: Some(Preload::Force(force)), ..scene.clone() };
+        result.over_preload = curve(&geometric(PRELOADS.map(|share| share * middle)), |preload| {
+            let scene = SpatialScene { preload: Some(by(preload)), ..scene.clone() };
             let (_, load) = scene.shaft()?;
             Ok((scene, load))
         })?;
     }
     Ok(result)
+}
+
+/// Values beside which some are nothing but round-off, those as zero.
+pub(crate) fn without_round_off<const N: usize>(values: [f64; N]) -> [f64; N] {
+    let largest = values.iter().fold(0.0, |largest: f64, value| largest.max(value.abs()));
+    values.map(|value| if value.abs() < 1e-9 * largest { 0.0 } else { value })
 }
 
 /// A bearing that cannot be in balance: nothing is wrong with the numbers one by one.

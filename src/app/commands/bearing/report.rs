@@ -1,6 +1,6 @@
 //! The report of `plummer bearing`.
 
-use super::compute::{BearingResult, CurvePoint};
+use super::compute::{BearingResult, CurvePoint, without_round_off};
 use crate::app::case::{Case, Purpose};
 use crate::app::commands::parts::{self, signed_report};
 use crate::bearing::spatial::{BallState, BearingState, ShaftEquilibrium};
@@ -50,7 +50,10 @@ pub(crate) fn bearing_report(case: &Case, result: &BearingResult, command: &str)
     let curves = [
         ("Over the load", "Load over that of the case", "", &result.over_load),
         ("Over the speed", "Speed of the shaft", "rpm", &result.over_speed),
-        ("Over the preload", "Axial preload force", "N", &result.over_preload),
+        match result.preload_is_displacement {
+            true => ("Over the preload", "Axial displacement", "m", &result.over_preload),
+            false => ("Over the preload", "Axial preload force", "N", &result.over_preload),
+        },
     ];
     for (title, axis, unit, points) in curves {
         if !points.is_empty() {
@@ -87,7 +90,8 @@ fn displacement_table(taken: &ShaftEquilibrium) -> Table {
         Column::number("Load that holds it", ""),
         Column::text("Unit"),
     ];
-    let ([x, y, z], [a, b]) = (taken.displacement.translation, taken.displacement.tilt);
+    let [x, y, z] = without_round_off(taken.displacement.translation);
+    let [a, b] = without_round_off(taken.displacement.tilt);
     let rows = [x, y, z, a, b].into_iter().enumerate().map(|(index, value)| {
         let length = index < 3;
         let (factor, unit, load) = if length { (1e6, "\u{b5}m", "N") } else { (1e3, "mrad", "N m") };
@@ -137,8 +141,8 @@ fn equilibria_table(equilibria: &[ShaftEquilibrium]) -> Table {
             (0, loose) => format!("stable, {loose} directions held by nothing"),
             (down, _) => format!("saddle, {down} directions down"),
         };
-        let lengths = rest.displacement.translation.map(|part| Cell::number(1e6 * part, 4));
-        let tilts = rest.displacement.tilt.map(|part| Cell::number(1e3 * part, 4));
+        let lengths = without_round_off(rest.displacement.translation).map(|part| Cell::number(1e6 * part, 4));
+        let tilts = without_round_off(rest.displacement.tilt).map(|part| Cell::number(1e3 * part, 4));
         let which = Cell::text(if number == 0 { "taken" } else { "other" });
         [which].into_iter().chain(lengths).chain(tilts).chain([Cell::text(kind)]).collect::<Vec<_>>()
     });

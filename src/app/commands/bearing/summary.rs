@@ -34,8 +34,10 @@ pub struct BearingSummary<'a> {
     pub over_load: &'a [CurvePoint],
     /// Over the speed in rpm; empty without speed.
     pub over_speed: &'a [CurvePoint],
-    /// Over the preload force in N.
+    /// Over the preload: a force in N, or a displacement in m.
     pub over_preload: &'a [CurvePoint],
+    /// Whether the preload is a displacement.
+    pub preload_is_displacement: bool,
     /// What of the model may be meant otherwise, a sentence each.
     pub warnings: &'a [String],
 }
@@ -143,6 +145,7 @@ impl BearingResult {
             over_load: &self.over_load,
             over_speed: &self.over_speed,
             over_preload: &self.over_preload,
+            preload_is_displacement: self.preload_is_displacement,
             warnings: &self.doubts,
         }
     }

@@ -129,6 +129,13 @@ fn every_ball_finds_its_place() {
         seed = seed.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
         (seed >> 11) as f64 / (1_u64 << 53) as f64 * 2.0 - 1.0
     };
+    // a ball beside the inner groove's centre, which says nothing of the angle at which it rolls
+    let displacement = RingDisplacement {
+        translation: [2.744905190908074e-5, -2.0377076329284468e-5, 1.240533316890416e-5],
+        tilt: [0.0005447775719174451, -0.004722319129233072],
+    };
+    let condition = BearingCondition { cage_angle: 1.9148059512307998, shaft_speed: 23_546.0 };
+    bearing(Thrust::Both, RaceControl::Outer).state(&displacement, condition).unwrap();
     let mut loaded = 0;
     for thrust in [Thrust::Both, Thrust::Positive, Thrust::Negative] {
         for control in [RaceControl::Outer, RaceControl::Shared] {
