@@ -30,7 +30,7 @@ impl SpatialScene {
     ///
     /// # Errors
     /// [`ComputeError`] naming what is out of range.
-    pub fn build(case: &Case, rpm: Option<f64>, holds_tilt: bool) -> Result<Self, ComputeError> {
+    pub(crate) fn build(case: &Case, rpm: Option<f64>, holds_tilt: bool) -> Result<Self, ComputeError> {
         let (asked, asked_shaft) = case.for_bearing()?;
         let knots = case.speed.iter().flat_map(|speed| &speed.profile);
         let fastest = knots.max_by(|a, b| a.frequency_hz.abs().total_cmp(&b.frequency_hz.abs()));
@@ -51,7 +51,7 @@ impl SpatialScene {
     ///
     /// # Errors
     /// [`ComputeError`] as of [`RigidShaft::new`].
-    pub fn shaft(&self) -> Result<(RigidShaft, ShaftLoad), ComputeError> {
+    pub(crate) fn shaft(&self) -> Result<(RigidShaft, ShaftLoad), ComputeError> {
         let mounted =
             MountedBearing { bearing: self.bearing.clone(), place: 0.0, offset: 0.0, cage_angle: self.cage_angle };
         let mut shaft = RigidShaft::new(vec![mounted], self.speed).map_err(ComputeError::bearing("bearing: "))?;

@@ -106,7 +106,7 @@ pub(crate) struct PlaneForces {
 impl BallLaw {
     /// Speeds at contact angles with these `[cos, sin]`, for an inner ring that turns at `speed`.
     #[inline]
-    pub fn speeds(&self, inner: Vector2<f64>, outer: Vector2<f64>, speed: f64) -> BallSpeeds {
+    pub(crate) fn speeds(&self, inner: Vector2<f64>, outer: Vector2<f64>, speed: f64) -> BallSpeeds {
         let ratio = self.diameter / self.pitch_diameter;
         let (rolling, both) = (1.0 - ratio * inner.x, 1.0 + inner.dot(&outer));
         // sine of α_i − α_o
@@ -124,7 +124,7 @@ impl BallLaw {
 
     /// Forces at a place `u` (radial from ρ_o, axial) that the inner ring sees at `y`.
     #[inline]
-    pub fn forces(&self, u: Vector2<f64>, y: Vector2<f64>, speed: f64) -> PlaneForces {
+    pub(crate) fn forces(&self, u: Vector2<f64>, y: Vector2<f64>, speed: f64) -> PlaneForces {
         let outer = self.outer.at(u);
         let inner = self.inner.at(y - Vector2::new(self.grooves.radial_gap, self.grooves.axial_gap));
         let mut forces = PlaneForces {
@@ -200,7 +200,7 @@ impl BallLaw {
     ///
     /// # Errors
     /// [`BearingError`] where the search does not end, with the force out of balance.
-    pub fn place(&self, plane: &BallPlane, speed: f64) -> Result<Vector2<f64>, BearingError> {
+    pub(crate) fn place(&self, plane: &BallPlane, speed: f64) -> Result<Vector2<f64>, BearingError> {
         let start = match self.start(plane, speed) {
             Start::Free(place) => return Ok(place),
             Start::At(place) => place,
