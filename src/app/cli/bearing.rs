@@ -43,8 +43,9 @@ fn summary(result: &BearingResult) -> String {
     let [x, y, z] = without_round_off(taken.displacement.translation).map(|part| digits(1e6 * part));
     let [a, b] = without_round_off(taken.displacement.tilt).map(|part| digits(1e3 * part));
     lines.push(format!("at rest: ({x}, {y}, {z}) \u{b5}m, tilt ({a}, {b}) mrad"));
-    if taken.holding_load.iter().any(|load| load.abs() > 0.0) {
-        let [hx, hy, hz, ha, hb] = taken.holding_load.map(digits);
+    let holding = result.holding_load(taken);
+    if holding.iter().any(|load| load.abs() > 0.0) {
+        let [hx, hy, hz, ha, hb] = holding.map(digits);
         lines.push(format!("held by: ({hx}, {hy}, {hz}) N, ({ha}, {hb}) N m"));
     }
     let columns = ["azimuth", "load i", "load o", "angle i", "angle o", "MPa i", "MPa o", "spin", "orbit"];

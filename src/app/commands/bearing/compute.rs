@@ -142,6 +142,16 @@ pub(crate) fn without_round_off<const N: usize>(values: [f64; N]) -> [f64; N] {
     values.map(|value| if value.abs() < 1e-9 * largest { 0.0 } else { value })
 }
 
+impl BearingResult {
+    /// The loads that hold prescribed displacements, what is nothing but round-off beside the load and the ball loads as zero.
+    pub(crate) fn holding_load(&self, rest: &ShaftEquilibrium) -> [f64; 5] {
+        let balls = rest.bearings.iter().flat_map(|state| &state.balls);
+        let loads = self.load.force.iter().map(|part| part.abs()).chain(balls.map(|ball| ball.load[0]));
+        let largest = loads.fold(0.0, f64::max);
+        rest.holding_load.map(|load| if load.abs() < 1e-9 * largest { 0.0 } else { load })
+    }
+}
+
 /// A bearing that cannot be in balance: nothing is wrong with the numbers one by one.
 fn no_equilibrium(error: BearingError) -> ComputeError {
     ComputeError::failed(
@@ -218,9 +228,10 @@ fn doubts(
     if !taken.is_stable() {
         doubts.push("the equilibrium is a saddle: the shaft leaves it".to_owned());
     }
-    let others = equilibria.len() - 1;
+    let others = equilibria.iter().skip(1).filter(|rest| rest.is_stable()).count();
     if others > 0 {
-        doubts.push(format!("the load has {others} other equilibria: the table shows all that were found"));
+        let others = if others == 1 { "another stable equilibrium" } else { "other stable equilibria" };
+        doubts.push(format!("the load has {others}: the table shows all that were found"));
     }
     let balls = taken.bearings.iter().flat_map(|state| &state.balls);
     let wrong_side = balls.filter(|ball| {

@@ -42,7 +42,7 @@ pub(crate) fn bearing_report(case: &Case, result: &BearingResult, command: &str)
     report = report.section(inputs(case, result));
     if let (Some(taken), Some(state)) = (taken, state) {
         let rest = Section::new("At rest")
-            .table(displacement_table(taken))
+            .table(displacement_table(result, taken))
             .table(stiffness_table(taken))
             .table(equilibria_table(&result.equilibria));
         report = report.section(rest).section(balls_section(state)).section(orders_section(result));
@@ -82,7 +82,7 @@ fn inputs(case: &Case, result: &BearingResult) -> Section {
 }
 
 /// Values of five coordinates, lengths in um and tilts in mrad.
-fn displacement_table(taken: &ShaftEquilibrium) -> Table {
+fn displacement_table(result: &BearingResult, taken: &ShaftEquilibrium) -> Table {
     let columns = [
         Column::text("Coordinate"),
         Column::number("Displacement", ""),
@@ -92,11 +92,12 @@ fn displacement_table(taken: &ShaftEquilibrium) -> Table {
     ];
     let [x, y, z] = without_round_off(taken.displacement.translation);
     let [a, b] = without_round_off(taken.displacement.tilt);
+    let holding = result.holding_load(taken);
     let rows = [x, y, z, a, b].into_iter().enumerate().map(|(index, value)| {
         let length = index < 3;
         let (factor, unit, load) = if length { (1e6, "\u{b5}m", "N") } else { (1e3, "mrad", "N m") };
-        let held = taken.holding_load[index];
-        let holds = if held.abs() > 0.0 { Cell::number(held, 5) } else { Cell::text("free") };
+        let held = holding[index];
+        let holds = if held.abs() > 0.0 { Cell::number(held, 5) } else { Cell::text("none") };
         [Cell::text(COORDINATES[index]), Cell::number(factor * value, 5), Cell::text(unit), holds, Cell::text(load)]
     });
     Table::new("Displacement of the inner ring against the outer ring", columns).rows(rows).footnote(format!(

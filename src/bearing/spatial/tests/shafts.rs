@@ -120,8 +120,8 @@ fn a_load_on_a_ball_in_play_has_two_equilibria() {
     shaft.held = [None, None, None, Some(0.0), Some(0.0)];
     let load = ShaftLoad { force: [0.0, -2.0, 0.0], ..ShaftLoad::default() };
     let all = shaft.find_all(&load).unwrap();
-    assert_eq!(all.len(), 2);
-    for found in &all {
+    assert_eq!(all.len(), 3);
+    for found in &all[..2] {
         assert!(found.is_stable() && found.directions_loose == 0 && found.least_stiffness.unwrap() > 1e3);
         // round-off of the forces
         assert!(found.residual_n < 1e-9, "{}", found.residual_n);
@@ -131,6 +131,11 @@ fn a_load_on_a_ball_in_play_has_two_equilibria() {
     assert!(a[0].abs() > 1e-7);
     assert_relative_eq!(a[0], -b[0], max_relative = 1e-6);
     assert_relative_eq!(a[1], b[1], max_relative = 1e-6);
+    // the saddle stands straight on the ball, one direction falls
+    let saddle = &all[2];
+    assert_eq!(saddle.directions_down, 1);
+    assert!(!saddle.is_stable() && saddle.displacement.translation[0].abs() < 1e-12, "{:?}", saddle.displacement);
+    assert_relative_eq!(saddle.bearings[0].balls[0].load[0], 2.0, max_relative = 1e-6);
     // a direction that nothing holds is counted: without a load the shaft floats in its play
     let floating = shaft.equilibrium(&ShaftLoad::default()).unwrap();
     assert_eq!(floating.directions_loose, 3);
