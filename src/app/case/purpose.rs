@@ -204,8 +204,8 @@ const OF_CONTACT: [&str; 9] =
     ["frf", "speed", "transient", "damping", "bearing", "shaft", "accuracy", "condense", "sensors"];
 
 /// What a bearing in space does not depend on.
-const OF_STRUCTURE: [&str; 10] =
-    ["frf", "modes", "transient", "damping", "accuracy", "condense", "sensors", "housing", "ring", "springs"];
+const OF_STRUCTURE: [&str; 9] =
+    ["frf", "modes", "transient", "damping", "accuracy", "condense", "sensors", "housing", "ring"];
 
 impl Case {
     /// SHA-256 of what the result of a command depends on, 64 hexadecimal digits: the values, and the content of [`Case::tables`]. Meshes

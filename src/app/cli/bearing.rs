@@ -4,7 +4,7 @@ use super::analyze::warn;
 use super::report::ReportFiles;
 use super::results::Job;
 use super::{CliError, Outcome, typed};
-use crate::app::commands::bearing::compute::without_round_off;
+use crate::app::commands::bearing::compute::{shown_degrees, without_round_off};
 use crate::app::commands::bearing::{BearingResult, bearing_report, compute_bearing};
 use crate::report::significant;
 use std::f64::consts::TAU;
@@ -52,9 +52,8 @@ fn summary(result: &BearingResult) -> String {
     let units = ["deg", "N", "N", "deg", "deg", "", "", "rpm", "rpm"];
     let mut rows = vec![columns.map(str::to_owned).to_vec(), units.map(str::to_owned).to_vec()];
     for ball in taken.bearings.iter().flat_map(|state| &state.balls) {
-        let angle = |angle: Option<f64>| {
-            angle.map_or_else(|| "-".to_owned(), |angle| significant(rounded(angle.to_degrees()), 4))
-        };
+        let angle =
+            |angle: Option<f64>| angle.map_or_else(|| "-".to_owned(), |angle| significant(shown_degrees(angle), 4));
         let rpm = |speed: f64| significant(speed * 60.0 / TAU, 5);
         rows.push(vec![
             significant(ball.azimuth.to_degrees().rem_euclid(360.0), 4),
@@ -79,18 +78,13 @@ fn summary(result: &BearingResult) -> String {
     let orders = result.orders;
     lines.push(format!(
         "orders at the mean contact angle of {}\u{b0}: BPFO {}, BPFI {}, BSF {}, FTF {}",
-        significant(rounded(result.contact_angle.to_degrees()), 4),
+        significant(shown_degrees(result.contact_angle), 4),
         digits(orders.outer),
         digits(orders.inner),
         digits(orders.ball_spin),
         digits(orders.cage)
     ));
     lines.join("\n")
-}
-
-/// Degrees that are nothing but round-off as zero.
-fn rounded(degrees: f64) -> f64 {
-    if degrees.abs() < 1e-9 { 0.0 } else { degrees }
 }
 
 /// Rows with their cells under each other, on the right.

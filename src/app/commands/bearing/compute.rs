@@ -142,6 +142,12 @@ pub(crate) fn without_round_off<const N: usize>(values: [f64; N]) -> [f64; N] {
     values.map(|value| if value.abs() < 1e-9 * largest { 0.0 } else { value })
 }
 
+/// An angle in degrees, as zero where it is nothing but round-off.
+pub(crate) fn shown_degrees(angle: f64) -> f64 {
+    let degrees = angle.to_degrees();
+    if degrees.abs() < 1e-9 { 0.0 } else { degrees }
+}
+
 impl BearingResult {
     /// The loads that hold prescribed displacements, what is nothing but round-off beside the load and the ball loads as zero.
     pub(crate) fn holding_load(&self, rest: &ShaftEquilibrium) -> [f64; 5] {

@@ -1,11 +1,11 @@
 //! The report of `plummer bearing`.
 
-use super::compute::{BearingResult, CurvePoint, without_round_off};
+use super::compute::{BearingResult, CurvePoint, shown_degrees, without_round_off};
 use crate::app::case::{Case, Purpose};
 use crate::app::commands::parts::{self, signed_report};
 use crate::bearing::spatial::{BallState, BearingState, ShaftEquilibrium};
 use crate::report::{
-    Abscissa, Axis, Cell, Column, Curve, CurveStyle, Fact, Plot, Report, Section, Table, Verdict, significant,
+    Abscissa, Axis, Cell, Column, Curve, CurveStyle, Fact, Plot, Report, Section, Table, Verdict, counted, significant,
 };
 use std::f64::consts::TAU;
 
@@ -23,7 +23,7 @@ pub(crate) fn bearing_report(case: &Case, result: &BearingResult, command: &str)
         .headline("Equilibrium", if stable { "stable" } else { "a saddle" }, Verdict::of(stable))
         .headline(
             "Mean contact angle",
-            format!("{}\u{b0}", significant(result.contact_angle.to_degrees(), 4)),
+            format!("{}\u{b0}", significant(shown_degrees(result.contact_angle), 4)),
             Verdict::None,
         )
         .headline(
@@ -139,8 +139,8 @@ fn equilibria_table(equilibria: &[ShaftEquilibrium]) -> Table {
     let rows = equilibria.iter().enumerate().map(|(number, rest)| {
         let kind = match (rest.directions_down, rest.directions_loose) {
             (0, 0) => "stable".to_owned(),
-            (0, loose) => format!("stable, {loose} directions held by nothing"),
-            (down, _) => format!("saddle, {down} directions down"),
+            (0, loose) => format!("stable, {} held by nothing", counted(loose, "direction")),
+            (down, _) => format!("saddle, {} down", counted(down, "direction")),
         };
         let lengths = without_round_off(rest.displacement.translation).map(|part| Cell::number(1e6 * part, 4));
         let tilts = without_round_off(rest.displacement.tilt).map(|part| Cell::number(1e3 * part, 4));
@@ -169,7 +169,7 @@ fn balls_section(state: &BearingState) -> Section {
     balls.sort_by(|a, b| degrees(a).total_cmp(&degrees(b)));
     let rpm = |speed: f64| speed * 60.0 / TAU;
     let rows = balls.iter().map(|ball| {
-        let angles = ball.contact_angle.map(|angle| Cell::number_or(angle.map(f64::to_degrees), 4, "no contact"));
+        let angles = ball.contact_angle.map(|angle| Cell::number_or(angle.map(shown_degrees), 4, "no contact"));
         let [inner_angle, outer_angle] = angles;
         let [inner, outer] = ball.patch.map(|patch| Cell::number(1e-6 * patch.peak_pressure, 4));
         [
@@ -191,7 +191,7 @@ fn balls_section(state: &BearingState) -> Section {
         let at = balls.iter().map(|ball| degrees(ball)).collect();
         Curve::new(name, Abscissa::Points(at), balls.iter().map(|ball| of(ball)).collect())
     };
-    let angle = |race: usize| move |ball: &BallState| ball.contact_angle[race].map_or(f64::NAN, f64::to_degrees);
+    let angle = |race: usize| move |ball: &BallState| ball.contact_angle[race].map_or(f64::NAN, shown_degrees);
     let loads = Plot::new("Ball loads", azimuth(), Axis::new("Contact force", "N"))
         .curve(over("inner race", &|ball| ball.load[0]))
         .curve(over("outer race", &|ball| ball.load[1]).style(CurveStyle::Dashed))
@@ -215,7 +215,7 @@ fn orders_section(result: &BearingResult) -> Section {
     ]
     .map(|(part, order)| [Cell::text(part), Cell::number(order, 6), Cell::number(order * hz, 6)]);
     let caption =
-        format!("Orders at the mean contact angle of {}\u{b0}", significant(result.contact_angle.to_degrees(), 4));
+        format!("Orders at the mean contact angle of {}\u{b0}", significant(shown_degrees(result.contact_angle), 4));
     Section::new("Orders").table(Table::new(caption, columns).rows(rows))
 }
 
