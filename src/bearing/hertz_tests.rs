@@ -171,3 +171,36 @@ fn patch_of_an_ellipse_supports_its_own_shape() {
         / (parameter * patch.longer * patch.longer * contact.effective_modulus);
     assert_relative_eq!(flattened, smaller, max_relative = 1e-10);
 }
+
+/// T. A. Harris, *Rolling Bearing Analysis*, 4th edition, table 6.1: F, a*, b*, δ*, as printed.
+const TABLE_6_1: [[f64; 4]; 7] = [
+    [0.1075, 1.0760, 0.9318, 0.9974],
+    [0.4795, 1.4556, 0.7278, 0.9429],
+    [0.7332, 2.011, 0.5881, 0.8394],
+    [0.87366, 2.800, 0.4863, 0.7169],
+    [0.95738, 4.395, 0.3830, 0.5551],
+    [0.990902, 8.062, 0.2814, 0.3745],
+    [0.9998527, 37.38, 0.13050, 0.11995],
+];
+
+#[test]
+fn dimensionless_axes_and_approach_meet_table_6_1() {
+    let at = |difference: f64| {
+        // relative curvatures of sum 2 and this difference, against a flat
+        let body = PrincipalCurvatures { plane_1: 1.0 - difference, plane_2: 1.0 + difference };
+        let found = stiffness(body, PrincipalCurvatures::flat(), steel()).unwrap();
+        [found.half_axis, found.half_axis / found.ellipticity, found.approach]
+    };
+    for [difference, printed @ ..] in TABLE_6_1 {
+        let found = at(difference);
+        println!("F {difference}: {found:?}; table {printed:?}");
+        for (found, printed) in found.into_iter().zip(printed) {
+            // four digits of F, which the largest a* depends on by 1e-3
+            assert_relative_eq!(found, printed, max_relative = 1e-3);
+        }
+    }
+    // between two rows of the table
+    let [a, b, approach] = at(0.9978);
+    assert!((12.789..14.839).contains(&a) && (0.2072..0.2232).contains(&b), "{a} {b}");
+    assert!((0.2427..0.2705).contains(&approach), "{approach}");
+}

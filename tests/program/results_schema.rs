@@ -11,10 +11,11 @@ use serde_json::{Value, json};
 use super::common::{errors, plummer, scratch};
 use super::validator::Validator;
 
-const ALL: [&str; 13] = [
+const ALL: [&str; 14] = [
     "modes",
     "condense",
     "frf",
+    "bearing",
     "run",
     "analyze",
     "chart",
@@ -76,6 +77,7 @@ fn what_commands_print_is_valid() {
         ("modes", vec!["modes", &ring]),
         ("modes", vec!["modes", &impact]),
         ("condense", vec!["condense", &ring, "--compare-full"]),
+        ("bearing", vec!["bearing", &impact]),
         ("run", vec!["run", &ring]),
         ("run", vec!["run", &impact]),
         ("run", vec!["run", &impact, "--explain"]),

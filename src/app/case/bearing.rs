@@ -4,9 +4,10 @@
 
 use super::defect::Defect;
 use super::named_bearing::named_or_numbers;
-use super::schema::{any_of, number, or_table, text, together, whole, words};
-use super::union::{Loose, mismatch, read_as, written_as};
+use super::schema::{any_of, number, one_of, or_table, text, together, whole, words};
+use super::union::{Loose, exactly_one, mismatch, read_as, written_as};
 use crate::bearing::Race;
+use crate::bearing::spatial::{RaceControl, Thrust};
 use crate::system::{BallsInertia, Formulation};
 use schemars::{JsonSchema, Schema, SchemaGenerator};
 use serde::{Deserialize, Serialize};
@@ -40,6 +41,18 @@ pub struct Bearing {
     /// Radial play from the centred position to first contact; negative: preload. `None`: what the radii give.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub radial_play: Option<f64>,
+    /// Free contact angle in degrees, above 0 and below 90, in the place of `radial_play`; for `plummer bearing` alone.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub contact_angle_deg: Option<f64>,
+    /// Which way along the axis the shaft may push the inner ring. `None`: along +z with `contact_angle_deg`, either way without.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub thrust: Option<Thrust>,
+    /// Which race carries the friction of the balls' gyroscopic moment. `None`: the outer one.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub race_control: Option<RaceControl>,
+    /// Axial preload along `thrust`; for `plummer bearing` alone.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub preload: Option<Preload>,
     /// Hunt-Crossley contact damping in s/m, >= 0: F = k delta^(3/2) (1 + c delta').
     #[serde(default)]
     pub contact_damping: f64,
@@ -109,7 +122,18 @@ impl Bearing {
     /// Returns the radial play in m: the given one, else R - r - 2 rho_b from the radii.
     #[must_use]
     pub fn play(&self) -> f64 {
-        self.radial_play.unwrap_or_else(|| self.play_from_radii())
+        let by_angle = |degrees: f64| {
+            let between_centres = self.inner_groove_radius + self.outer_groove_radius - 2.0 * self.ball_radius;
+            2.0 * between_centres * (0.5 * degrees.to_radians()).sin().powi(2)
+        };
+        let given = self.radial_play.or(self.contact_angle_deg.map(by_angle));
+        given.unwrap_or_else(|| self.play_from_radii())
+    }
+
+    /// Which way along the axis the shaft may push the inner ring.
+    pub(crate) fn thrust_or_default(&self) -> Thrust {
+        let by_angle = if self.contact_angle_deg.is_some() { Thrust::Positive } else { Thrust::Both };
+        self.thrust.unwrap_or(by_angle)
     }
 
     /// Returns the radial play that the radii give, R - r - 2 rho_b, in m.
@@ -118,6 +142,32 @@ impl Bearing {
         self.outer_race_radius - self.inner_race_radius - 2.0 * self.ball_radius
     }
 }
+
+/// Axial preload of a bearing.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Preload {
+    /// Constant axial force along `thrust` in N, as of a spring, > 0.
+    Force(f64),
+    /// Axial displacement along `thrust` in m at which the inner ring is held, > 0.
+    Displacement(f64),
+}
+
+/// Axial preload: as a force, or as a displacement of the inner ring.
+#[derive(Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+#[schemars(extend("oneOf" = one_of(&["force", "displacement"])))]
+struct PreloadForm {
+    /// Constant axial force along `thrust` in N, as of a spring, > 0.
+    force: Option<f64>,
+    /// Axial displacement along `thrust` in m at which the inner ring is held, > 0.
+    displacement: Option<f64>,
+}
+
+read_as!(Preload, PreloadForm, |form| {
+    let kinds = [form.force.map(Self::Force), form.displacement.map(Self::Displacement)];
+    exactly_one(kinds, "exactly one of `force`, `displacement`")
+});
 
 /// The races' materials, by name.
 #[derive(Debug, Clone, PartialEq, Eq)]

@@ -217,3 +217,114 @@ fn balls_without_inertia_have_no_contact_damping_and_no_printed_equations() {
         assert!(error.contains(message), "{error}");
     }
 }
+
+/// A bearing by itself with keys of the bearing in space.
+const SPATIAL: &str = "[bearing]\nname = \"6204\"\ncontact_angle_deg = 25\npreload = { force = 40 }\n\
+    [shaft]\nmass = 1\nloads = [{ force = [1, -2, 30], moment = [0.1, 0] }, { force = [5, 6] }]\n";
+
+#[test]
+fn keys_of_the_bearing_in_space_are_read() {
+    use crate::app::case::Preload;
+    use crate::bearing::spatial::Thrust;
+    let case = read(SPATIAL, &[]).unwrap();
+    let bearing = case.bearing.as_ref().unwrap();
+    // the angle gives the play, c = A (1 - cos a), in the place of the catalogue's
+    let between = bearing.inner_groove_radius + bearing.outer_groove_radius - 2.0 * bearing.ball_radius;
+    assert!((bearing.play() / (between * (1.0 - 25_f64.to_radians().cos())) - 1.0).abs() < 1e-12);
+    assert!(bearing.radial_play.is_none());
+    assert_eq!(bearing.thrust_or_default(), Thrust::Positive);
+    assert_eq!(bearing.preload, Some(Preload::Force(40.0)));
+    let loads = &case.shaft.as_ref().unwrap().loads;
+    assert_eq!(loads[0], Load::Spatial { force: [1.0, -2.0, 30.0], moment: [0.1, 0.0] });
+    assert_eq!(loads[1], Load::Constant([5.0, 6.0]));
+    // what case results echo is read again
+    let echo = serde_json::to_value(&case).unwrap();
+    assert_eq!(echo["shaft"]["loads"][0], serde_json::json!({ "force": [1.0, -2.0, 30.0], "moment": [0.1, 0.0] }));
+    assert_eq!(echo["bearing"]["preload"], serde_json::json!({ "force": 40.0 }));
+    let both = read(SPATIAL, &["bearing.thrust=both", "shaft.loads[0].force=[1,-2,0]", "shaft.loads[0].moment=[0,0]"]);
+    let both = both.unwrap();
+    assert_eq!(both.bearing.unwrap().thrust_or_default(), Thrust::Both);
+    assert_eq!(both.shaft.unwrap().loads[0], Load::Constant([1.0, -2.0]));
+}
+
+#[test]
+fn keys_of_the_bearing_in_space_that_are_wrong_are_named() {
+    for (set, rest) in [
+        (
+            "bearing.contact_angle_deg=90",
+            "`bearing.contact_angle_deg`: found 90, expected an angle above 0 and below 90 degrees",
+        ),
+        (
+            "bearing.radial_play=1e-6",
+            "`bearing.contact_angle_deg`: found beside `bearing.radial_play`, expected one of the two",
+        ),
+        (
+            "bearing.preload={}",
+            "`bearing.preload`: found none of them, expected exactly one of `force`, `displacement`",
+        ),
+        (
+            "bearing.preload={force=1,displacement=1}",
+            "`bearing.preload`: found several, expected exactly one of `force`, `displacement`",
+        ),
+        ("bearing.preload.force=-1", "`bearing.preload.force`: found -1, expected a number above 0"),
+        ("bearing.thrust=up", "`bearing.thrust` is \"up\", expected one of `both`, `positive`, `negative`"),
+        (
+            "shaft.loads[0].force=[1,2,3,4]",
+            "`shaft.loads[0].force`: found an array of 4, expected an array of 2, or of 3 in space",
+        ),
+        (
+            "shaft.loads[0]={moment=[1,2]}",
+            "`shaft.loads[0]`: found `moment` without `force`, expected `force` = [x, y], or `profile` = [{ time, force }, ...]",
+        ),
+        ("shaft.loads[0].moment=[1e300,0]", "`shaft.loads[0]`: found 1e300, expected at most 1e15 either way"),
+    ] {
+        let error = read(SPATIAL, &[set]).unwrap_err().to_string();
+        // rules of a whole item stand at its line
+        let line = if set.contains("loads[0].moment") { 7 } else { 3 };
+        let places = [format!("--set {set}: "), format!("folder/case.toml:{line}: ")];
+        assert!(places.iter().any(|place| error == format!("{place}{rest}")), "{error}");
+    }
+    let no_angle = SPATIAL.replace("contact_angle_deg = 25\n", "thrust = \"negative\"\nradial_play = -1e-6\n");
+    let error = read(&no_angle, &[]).unwrap_err().to_string();
+    assert!(
+        error.contains("`bearing.thrust`: found a one-way thrust with a radial play of -1e-6 m, expected play above 0"),
+        "{error}"
+    );
+}
+
+/// Every command of the plane model refuses the first key that it would ignore, with its place; `bearing` takes all.
+#[test]
+fn the_plane_model_refuses_keys_of_the_bearing_in_space() {
+    use crate::app::case::{Case, Purpose};
+    let case = |set: &[&str]| Case::example("scenes/smooth", set);
+    let all = [Purpose::Modes, Purpose::Condense, Purpose::Frf, Purpose::Run, Purpose::Chart];
+    for (set, key) in [
+        ("bearing.thrust=positive", "bearing.thrust"),
+        ("bearing.race_control=shared", "bearing.race_control"),
+        ("bearing.preload={displacement=1e-6}", "bearing.preload"),
+        ("shaft.loads=[{force=[0,1]},{force=[0,0,1]}]", "shaft.loads[1]"),
+        ("shaft.loads=[{force=[0,0],moment=[0,1]}]", "shaft.loads[0]"),
+    ] {
+        let case = case(&[set, "bearing.radial_play=1e-6"]);
+        for purpose in all {
+            let error = case.ready_for(purpose).unwrap_err();
+            assert!(error.to_string().starts_with(&format!("--set {set}: `{key}`: found ")), "{purpose:?} {error}");
+            assert!(error.help().unwrap().ends_with("or use `plummer bearing`, which knows it"));
+        }
+        assert!(case.for_run().is_err());
+        case.ready_for(Purpose::Bearing).unwrap();
+    }
+    let plane = ["bearing.thrust=both", "bearing.race_control=outer", "shaft.loads=[{force=[0,1,0]}]"];
+    case(&plane).ready_for(Purpose::Run).unwrap();
+    let error = read(SPATIAL, &["bearing.contact_angle_deg=20"]).unwrap().ready_for(Purpose::Modes).unwrap_err();
+    assert!(error.to_string().contains("`bearing.contact_angle_deg`: found a key of the bearing in space"), "{error}");
+    let alone = SPATIAL
+        .replace("contact_angle_deg = 25\npreload = { force = 40 }\n", "")
+        .replace(", 30], moment = [0.1, 0]", "]");
+    let error = read(&alone, &[]).unwrap().ready_for(Purpose::Modes).unwrap_err();
+    assert!(error.to_string().contains("`modes` needs [housing] or [ring], which the case file lacks"), "{error}");
+    let error =
+        read("[ring]\nsections = [{ material = \"steel\", area = 5e-6, inertia = 9e-13, radius = 5.3e-3 }]\n", &[]);
+    let error = error.unwrap().ready_for(Purpose::Bearing).unwrap_err();
+    assert!(error.to_string().contains("`bearing` needs [bearing], which the case file lacks"), "{error}");
+}

@@ -54,7 +54,7 @@ use std::collections::BTreeMap;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-pub use bearing::{Bearing, ContactStiffness, RaceMaterial, Slip, Wave};
+pub use bearing::{Bearing, ContactStiffness, Preload, RaceMaterial, Slip, Wave};
 pub(in crate::app) use built_in_materials::built_in_like;
 pub use built_in_materials::{BUILT_IN_MATERIALS, BuiltInMaterial};
 pub(crate) use check::short;
@@ -84,7 +84,7 @@ pub use transient::{Accuracy, Analysis, Ensemble, Method, ModesKept, ScalogramWi
 /// One case: everything that a command computes from, but the mesh.
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
-#[schemars(extend("anyOf" = schema::one_of(&["housing", "ring", "bearings"]), "allOf" = named_bearing::named_or_sections()))]
+#[schemars(extend("anyOf" = schema::one_of(&["housing", "ring", "bearing", "bearings"]), "allOf" = named_bearing::named_or_sections()))]
 pub struct Case {
     /// What the case is about; the file's name where the file says nothing.
     #[serde(default)]

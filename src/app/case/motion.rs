@@ -38,6 +38,28 @@ pub enum Load {
     /// Straight lines between points, constant before the first and after the last; at least one, times increasing.
     #[serde(rename = "profile")]
     Profile(Vec<LoadPoint>),
+    /// Always the same, in space: for `plummer bearing` alone.
+    #[serde(untagged)]
+    Spatial {
+        /// Along x, y and z in N.
+        force: [f64; 3],
+        /// About x and y in N m, about the bearing's centre.
+        moment: [f64; 2],
+    },
+}
+
+/// A force in the plane, or in space.
+struct ForceForm(Vec<f64>);
+
+read_as!(ForceForm, Vec<f64>, |_generator| two_or_three(), |form| {
+    match form.len() {
+        2 | 3 => Ok(Self(form)),
+        found => Err(mismatch(format!("an array of {found}"), "an array of 2, or of 3 in space")),
+    }
+});
+
+fn two_or_three() -> schemars::Schema {
+    schemars::json_schema!({ "type": "array", "items": { "type": "number" }, "minItems": 2, "maxItems": 3 })
 }
 
 /// A force at a time.
@@ -55,16 +77,27 @@ pub struct LoadPoint {
 #[schemars(extend("oneOf" = one_of(&["force", "profile"])))]
 /// A force on the shaft: constant, or over time.
 struct LoadForm {
-    /// Always the same, along x and y in N.
-    force: Option<[f64; 2]>,
+    /// Always the same, along x and y, and in space along z, in N.
+    force: Option<ForceForm>,
+    /// Beside `force`: moment about x and y through the bearing's centre, in N m.
+    moment: Option<[f64; 2]>,
     /// Straight lines between points, constant before the first and after the last; at least one, times increasing.
     profile: Option<Vec<LoadPoint>>,
 }
 
 read_as!(Load, LoadForm, |form| {
     const ONE: &str = "`force` = [x, y], or `profile` = [{ time, force }, ...]";
+    let moment = form.moment.unwrap_or_default();
     match (form.force, form.profile) {
-        (Some(force), None) => Ok(Self::Constant(force)),
+        (Some(ForceForm(force)), None) => {
+            let at = |axis: usize| force.get(axis).copied().unwrap_or(0.0);
+            let in_plane = at(2).abs() <= 0.0 && moment.iter().all(|part| part.abs() <= 0.0);
+            Ok(match in_plane {
+                true => Self::Constant([at(0), at(1)]),
+                false => Self::Spatial { force: [at(0), at(1), at(2)], moment },
+            })
+        }
+        (_, Some(_)) | (None, None) if form.moment.is_some() => Err(mismatch("`moment` without `force`", ONE)),
         (None, Some(points)) => Ok(Self::Profile(points)),
         (None, None) => Err(mismatch("neither", ONE)),
         (Some(_), Some(_)) => Err(mismatch("both", ONE)),

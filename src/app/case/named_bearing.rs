@@ -94,6 +94,7 @@ fn fill_seat(seat: &mut Node) -> Result<(), Fault> {
         Some(Value::Float(own)) => *own,
         _ => 0.5 * bearing.ball_diameter,
     };
+    let by_angle = keys.contains_key("contact_angle_deg");
     let mut add = |key: &str, value: Value| {
         keys.entry(key.to_owned()).or_insert(Node { mark, value });
     };
@@ -101,8 +102,8 @@ fn fill_seat(seat: &mut Node) -> Result<(), Fault> {
     for (key, number) in GIVEN[1..].iter().zip(lengths(bearing, ball_radius)) {
         add(key, Value::Float(number));
     }
-    // races of one's own have their own play
-    if !own_races {
+    // races of one's own have their own play, and a contact angle gives it
+    if !own_races && !by_angle {
         add("radial_play", Value::Float(UsualNumbers::of(bearing).play));
     }
     let Value::Table(keys) = &mut seat.value else { return Ok(()) };

@@ -1,7 +1,9 @@
 //! What a command needs of a case, a case that has what a simulation needs, and what a result depends on.
 
+use super::document::Document;
 use super::error::CaseError;
-use super::{Bearing, Case, Defect, Ensemble, Interface, Linearise, Ring, Shaft, Speed, Transient};
+use super::{Bearing, Case, Defect, Ensemble, Interface, Linearise, Load, Ring, Shaft, Speed, Transient};
+use crate::bearing::spatial::{RaceControl, Thrust};
 use crate::files::{self, FileDigest};
 use sha2::{Digest, Sha256};
 use std::path::Path;
@@ -19,6 +21,8 @@ pub enum Purpose {
     Run,
     /// Speed against accuracy of the simulation.
     Chart,
+    /// The bearing in space, at rest.
+    Bearing,
 }
 
 /// A case with every part that a simulation in time needs; see [`Case::for_run`].
@@ -47,10 +51,16 @@ impl Case {
         let interface = self.seats().iter().any(|seat| seat.ring.tie.is_some())
             || self.superelement().is_some()
             || self.condense.interface != Interface::Ring;
+        if purpose != Purpose::Bearing {
+            self.in_the_plane()?;
+        }
         let (by, needs) = match purpose {
+            Purpose::Bearing => return self.for_bearing().map(|_| ()),
             Purpose::Run => return self.for_run().map(|_| ()),
             Purpose::Chart => return self.for_chart().map(|_| ()),
             Purpose::Modes => {
+                let modelled = self.housing.is_some() || self.ring.is_some();
+                self.needed("`modes`", "[housing] or [ring]", modelled.then_some(()))?;
                 return match self.modes.linearise {
                     Linearise::None => Ok(()),
                     Linearise::Static => self.at_rest("`modes.linearise = \"static\"`").map(|_| ()),
@@ -94,6 +104,55 @@ impl Case {
         })
     }
 
+    /// Refuses keys that only the model of the bearing in space knows: a command of the plane model would ignore them.
+    ///
+    /// # Errors
+    /// [`CaseError`] with the first such key.
+    pub(crate) fn in_the_plane(&self) -> Result<(), CaseError> {
+        let several = self.seats();
+        let several = several.iter().filter(|seat| !seat.label.is_empty());
+        let several = several.filter_map(|seat| Some((seat.key("bearing"), seat.bearing?)));
+        let all = self.bearing.iter().map(|bearing| ("bearing".to_owned(), bearing)).chain(several);
+        let of_bearing = all.flat_map(|(table, bearing)| {
+            [
+                ("contact_angle_deg", bearing.contact_angle_deg.is_some()),
+                // what the plane model has too
+                ("thrust", bearing.thrust.is_some_and(|thrust| thrust != Thrust::Both)),
+                ("race_control", bearing.race_control.is_some_and(|control| control != RaceControl::Outer)),
+                ("preload", bearing.preload.is_some()),
+            ]
+            .map(|(key, given)| (format!("{table}.{key}"), given))
+        });
+        let of_bearing = of_bearing.filter(|(_, given)| *given).map(|(key, _)| key);
+        let loads = self.shaft.iter().flat_map(|shaft| &shaft.loads).enumerate();
+        let spatial = loads.filter(|(_, load)| matches!(load, Load::Spatial { .. }));
+        let of_load = spatial.map(|(index, _)| format!("shaft.loads[{index}]"));
+        match of_bearing.chain(of_load).next() {
+            None => Ok(()),
+            Some(key) => {
+                let (what, expected) = match key.starts_with("shaft") {
+                    true => ("a force along z or a moment", "forces along x and y"),
+                    false => ("a key of the bearing in space", "none: this command's bearing stays in its plane"),
+                };
+                let what = format!("`{key}`: found {what}, expected {expected}");
+                let place = Document::read(&self.source).map(|document| document.place(&key));
+                let place = place.unwrap_or_else(|_| self.source.path.display().to_string());
+                Err(CaseError::at(place, what)
+                    .with_help(Some(format!("leave `{key}` out, or use `plummer bearing`, which knows it"))))
+            }
+        }
+    }
+
+    /// Returns the parts that `bearing` needs.
+    ///
+    /// # Errors
+    /// [`CaseError`] with the first table that the case lacks.
+    pub(crate) fn for_bearing(&self) -> Result<(&Bearing, &Shaft), CaseError> {
+        let bearing = self.needed("`bearing`", "[bearing]", self.bearing.as_ref())?;
+        let shaft = self.needed("`bearing`", "[shaft]", self.shaft.as_ref())?;
+        Ok((bearing, shaft))
+    }
+
     /// Returns the parts that `run` needs.
     ///
     /// # Errors
@@ -125,6 +184,7 @@ impl Case {
             let help = "write one of them as [ring] and [bearing]; `modes`, `condense` and `frf` take several";
             return Err(CaseError::at(self.source.path.display(), what).with_help(Some(help.to_owned())));
         }
+        self.in_the_plane()?;
         let ring = self.needed(by, "[ring]", self.ring.as_ref())?;
         let bearing = self.needed(by, "[bearing]", self.bearing.as_ref())?;
         let shaft = self.needed(by, "[shaft]", self.shaft.as_ref())?;
@@ -152,6 +212,10 @@ const VIEWS: [&str; 3] = ["analysis", "title", "report"];
 /// What modes without contact do not depend on, as they are those of ring and housing in full.
 const OF_CONTACT: [&str; 9] =
     ["frf", "speed", "transient", "damping", "bearing", "shaft", "accuracy", "condense", "sensors"];
+
+/// What a bearing in space does not depend on.
+const OF_STRUCTURE: [&str; 9] =
+    ["frf", "modes", "transient", "damping", "accuracy", "condense", "sensors", "housing", "ring"];
 
 impl Case {
     /// SHA-256 of what the result of a command depends on, 64 hexadecimal digits: the values, and the content of [`Case::tables`]. Meshes
@@ -209,6 +273,7 @@ impl Case {
             "run" | "chart" => &["frf", "modes"],
             "condense" => &["frf", "modes", "speed"],
             "frf" => &["modes", "speed"],
+            "bearing" => &OF_STRUCTURE,
             // a variant may ask for loaded modes, and a superelement tells which of these keys do not act
             "modes" if loaded || !self.modes.variants.is_empty() || self.superelement().is_some() => &["frf"],
             "modes" => &OF_CONTACT,

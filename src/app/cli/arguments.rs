@@ -77,6 +77,16 @@ Files:
   frf.json  receptances (m/N) of the reduced and, where compared, of the full model; what carries each path
   frf.uff   the same for test software (universal file, dataset 58)";
 
+const BEARING_EXAMPLE: &str = "\
+Example: the bearing of a case under thrust beside its weight, at 3000 rpm
+  plummer bearing examples/scenes/smooth.toml --rpm 3000 --set 'shaft.loads=[{ force = [0, 0, 20] }]'
+
+Both rings are rigid. The shaft has three displacements and two tilts; its weight acts at the bearing's centre.
+
+Files:
+  bearing.json  equilibrium, balls, stiffness, orders; curves over load (0.1 to 10), speed (0 to 2) and preload
+  report.html   the same as tables and plots";
+
 const CHART_EXAMPLE: &str = "\
 Examples: which method and step the dented bearing needs; a first look in a fraction of the time
   plummer chart examples/scenes/impact.toml
@@ -255,6 +265,18 @@ pub enum Command {
         /// Case file (TOML)
         case: PathBuf,
     },
+    /// Find where a rigid shaft rests in its ball bearing in space: displacements, ball loads and angles, stiffness, orders
+    #[command(after_help = BEARING_EXAMPLE)]
+    Bearing {
+        /// Case file (TOML)
+        case: PathBuf,
+        /// Speed of the shaft in revolutions per minute (default: the highest of the case's profile)
+        #[arg(long, allow_hyphen_values = true, value_name = "RPM", value_parser = revolutions)]
+        rpm: Option<f64>,
+        /// Hold the shaft's tilt at zero, as a second bearing does, and show the moment that holds it
+        #[arg(long)]
+        hold_tilt: bool,
+    },
     /// Chart how fast and how accurate methods, steps and model sizes are, and map where they are stable
     #[command(after_help = CHART_EXAMPLE)]
     Chart {
@@ -387,6 +409,7 @@ impl Command {
             Self::Modes { .. } => "modes",
             Self::Condense { .. } => "condense",
             Self::Frf { .. } => "frf",
+            Self::Bearing { .. } => "bearing",
             Self::Chart { .. } => "chart",
             Self::Analyze(_) => "analyze",
             Self::Inspect { .. } => "inspect",
@@ -482,6 +505,11 @@ fn budget(text: &str) -> Result<Duration, String> {
     read.map(Duration::from_secs_f64)
 }
 
+/// A speed that can be: at most 6e7 rpm either way.
+fn revolutions(text: &str) -> Result<f64, String> {
+    number(text, |rpm| rpm.abs() <= 6e7, "revolutions per minute from -6e7 to 6e7")
+}
+
 /// A density: positive and finite.
 fn density(text: &str) -> Result<f64, String> {
     number(text, |density| density > 0.0 && density.is_finite(), "a number of kg/m^3 above 0")
@@ -533,6 +561,8 @@ pub enum ResultOf {
     Condense,
     /// frf.json
     Frf,
+    /// bearing.json
+    Bearing,
     /// run.json, and what run --explain prints
     Run,
     /// analysis.json, of one input or of several
@@ -588,6 +618,7 @@ fn without_case(command: &Command) -> Option<&'static str> {
         | Command::Modes { .. }
         | Command::Condense { .. }
         | Command::Frf { .. }
+        | Command::Bearing { .. }
         | Command::Chart { .. }
         | Command::Export { .. }
         | Command::Analyze(_)

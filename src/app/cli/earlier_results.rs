@@ -21,11 +21,12 @@ pub(super) const CASE_DIGEST: &str = "case_digest";
 
 /// The results that commands write into a folder: of each the word W of W.json, what is there before it, and files beside its page,
 /// tables and figures.
-pub(super) const RESULTS: [(&str, &str, &[&str]); 9] = [
+pub(super) const RESULTS: [(&str, &str, &[&str]); 10] = [
     ("run", PARTIAL, &["signals.npz", "scalogram.npz"]),
     ("modes", "", &["modes.npz"]),
     ("condense", "", &["superelement.npz"]),
     ("frf", "", &["frf.uff"]),
+    ("bearing", "", &[]),
     ("chart", "chart.csv.partial", &["chart.svg", "stability.svg", "resonance.svg"]),
     ("stability", "", &["stability.svg", "resonance.svg"]),
     ("analysis", "", &["analysis.csv"]),

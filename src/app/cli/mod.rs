@@ -5,6 +5,7 @@
 
 mod analyze;
 mod arguments;
+mod bearing;
 mod chart;
 mod condense;
 mod earlier_results;
@@ -123,6 +124,9 @@ pub(crate) fn execute(arguments: &Arguments, to: &mut impl Write) -> Result<(), 
         Command::Modes { case } => compute(case, Purpose::Modes, arguments, modes::modes),
         Command::Condense { case, compare_full } => {
             compute(case, Purpose::Condense, arguments, |job| condense::condense(job, *compare_full))
+        }
+        Command::Bearing { case, rpm, hold_tilt } => {
+            compute(case, Purpose::Bearing, arguments, |job| bearing::bearing(job, *rpm, *hold_tilt))
         }
         Command::Frf { case } => compute(case, Purpose::Frf, arguments, frf::frf),
         Command::Chart { case, quick, budget, only } => {

@@ -13,6 +13,7 @@ use super::report::ReportResult;
 use crate::app::case::{Case, in_words};
 use crate::app::commands::InspectResult;
 use crate::app::commands::analyze::{AnalysisResult, SurveyResult};
+use crate::app::commands::bearing::BearingSummary;
 use crate::app::commands::condense::{CondenseSummary, ImportedSummary};
 use crate::app::commands::frf::FrfSummary;
 use crate::app::commands::init::{CatalogueResult, DraftResult, MaterialsResult};
@@ -53,6 +54,7 @@ impl ResultOf {
             Self::Modes => of::<CaseResult<'_, ModesSummary<'_>>>(self),
             Self::Condense => of::<CaseResult<'_, Either<CondenseSummary<'_>, ImportedSummary<'_>>>>(self),
             Self::Frf => of::<CaseResult<'_, FrfSummary<'_>>>(self),
+            Self::Bearing => of::<CaseResult<'_, BearingSummary<'_>>>(self),
             Self::Run => of::<Either<CaseResult<'_, RunSummary<'_>>, ExplainSummary<'_>>>(self),
             Self::Analyze => of::<Either<AnalysisResult<'_>, SurveyResult<'_>>>(self),
             Self::Chart => of::<ChartResult<'_>>(self),

@@ -1,6 +1,7 @@
 //! What each command computes, as a value, and its report; nothing here prints.
 
 pub mod analyze;
+pub mod bearing;
 pub mod condense;
 pub mod frf;
 pub mod init;

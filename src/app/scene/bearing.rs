@@ -85,7 +85,7 @@ pub(crate) fn bearing_geometry(case: &Case) -> Result<Option<BearingGeometry>, C
     asked.map(|asked| geometry(case, asked)).transpose()
 }
 
-fn geometry(case: &Case, asked: &case::Bearing) -> Result<BearingGeometry, ComputeError> {
+pub(super) fn geometry(case: &Case, asked: &case::Bearing) -> Result<BearingGeometry, ComputeError> {
     let dimensions = BearingDimensions {
         balls: u32::try_from(asked.balls).unwrap_or(u32::MAX),
         ball_radius: asked.ball_radius,
@@ -96,9 +96,10 @@ fn geometry(case: &Case, asked: &case::Bearing) -> Result<BearingGeometry, Compu
         outer_groove_radius: asked.outer_groove_radius,
     };
     let geometry = BearingGeometry::new(dimensions);
-    let geometry = match asked.radial_play {
-        Some(play) => geometry.and_then(|geometry| geometry.with_radial_play(play)),
-        None => geometry,
+    let geometry = match (asked.radial_play, asked.contact_angle_deg) {
+        (Some(play), _) => geometry.and_then(|geometry| geometry.with_radial_play(play)),
+        (None, Some(angle)) => geometry.and_then(|geometry| geometry.with_free_contact_angle(angle.to_radians())),
+        (None, None) => geometry,
     };
     geometry.map_err(ComputeError::bearing("bearing: "))
 }
@@ -150,6 +151,8 @@ pub(crate) fn slip(asked: &Slip) -> Result<SlipProfile, ComputeError> {
 pub(crate) fn shaft(asked: &case::Shaft) -> Shaft {
     let load = |load: &Load| match load {
         Load::Constant(force) => LoadProfile::constant(*force),
+        // `Case::in_the_plane` refuses more than these two components
+        Load::Spatial { force: [x, y, _], .. } => LoadProfile::constant([*x, *y]),
         Load::Profile(points) => {
             let points: Vec<_> = points.iter().map(|p| (p.time, p.force)).collect();
             LoadProfile::through(&points)

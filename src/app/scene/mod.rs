@@ -22,6 +22,7 @@ mod kept;
 pub(crate) mod places;
 mod plausible;
 pub(crate) mod ring;
+pub(crate) mod spatial;
 mod start;
 pub(crate) mod structure;
 pub mod tie_price;

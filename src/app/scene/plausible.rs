@@ -270,7 +270,7 @@ pub(super) fn contacts(case: &Case, setup: &BearingSetup, hertz: &RaceContacts) 
     }
     let loads = case.shaft.iter().flat_map(|shaft| &shaft.loads);
     let later = loads.filter_map(|load| match load {
-        Load::Constant(_) => None,
+        Load::Constant(_) | Load::Spatial { .. } => None,
         Load::Profile(points) => {
             Some(points.iter().map(|point| point.force[0].hypot(point.force[1])).fold(0.0, f64::max))
         }

@@ -30,6 +30,9 @@ const HALVINGS: usize = 40;
 /// Force out of balance that counts as none, relative to the forces on the ball.
 const FORCE_TOLERANCE: f64 = 1e-13;
 
+/// The same where steps no longer halve it: the accuracy of the Hertz constants is ten times less.
+const SETTLED: f64 = 1e-11;
+
 /// How soon the contact angle that a ball's speeds belong to turns to that of the outer race where the inner contact is lost: by its gap
 /// times this, against the groove's seat. Any value keeps the speeds continuous.
 const LOST: f64 = 4.0;
@@ -106,7 +109,7 @@ pub(crate) struct PlaneForces {
 impl BallLaw {
     /// Speeds at contact angles with these `[cos, sin]`, for an inner ring that turns at `speed`.
     #[inline]
-    pub fn speeds(&self, inner: Vector2<f64>, outer: Vector2<f64>, speed: f64) -> BallSpeeds {
+    pub(crate) fn speeds(&self, inner: Vector2<f64>, outer: Vector2<f64>, speed: f64) -> BallSpeeds {
         let ratio = self.diameter / self.pitch_diameter;
         let (rolling, both) = (1.0 - ratio * inner.x, 1.0 + inner.dot(&outer));
         // sine of α_i − α_o
@@ -124,7 +127,7 @@ impl BallLaw {
 
     /// Forces at a place `u` (radial from ρ_o, axial) that the inner ring sees at `y`.
     #[inline]
-    pub fn forces(&self, u: Vector2<f64>, y: Vector2<f64>, speed: f64) -> PlaneForces {
+    pub(crate) fn forces(&self, u: Vector2<f64>, y: Vector2<f64>, speed: f64) -> PlaneForces {
         let outer = self.outer.at(u);
         let inner = self.inner.at(y - Vector2::new(self.grooves.radial_gap, self.grooves.axial_gap));
         let mut forces = PlaneForces {
@@ -200,7 +203,7 @@ impl BallLaw {
     ///
     /// # Errors
     /// [`BearingError`] where the search does not end, with the force out of balance.
-    pub fn place(&self, plane: &BallPlane, speed: f64) -> Result<Vector2<f64>, BearingError> {
+    pub(crate) fn place(&self, plane: &BallPlane, speed: f64) -> Result<Vector2<f64>, BearingError> {
         let start = match self.start(plane, speed) {
             Start::Free(place) => return Ok(place),
             Start::At(place) => place,
@@ -264,7 +267,8 @@ impl BallLaw {
         for _ in 0..MAX_ITERATIONS {
             let error = at.force.norm();
             let round_off = 4.0 * f64::EPSILON * place.norm() * at.stiffness.norm();
-            if error <= FORCE_TOLERANCE * at.scale || (error <= round_off && error > 0.5 * before) {
+            let settled = error <= round_off.max(SETTLED * at.scale) && error > 0.5 * before;
+            if error <= FORCE_TOLERANCE * at.scale || settled {
                 return Ok(place);
             }
             before = error;
@@ -281,7 +285,8 @@ impl BallLaw {
             }
         }
         Err(BearingError(format!(
-            "a ball finds no place between the races: {:.3e} N of {:.3e} N stay out of balance",
+            "a ball finds no place between the races: {:.3e} N of {:.3e} N stay out of balance; \
+             load, tilt or speed is more than the grooves hold",
             at.force.norm(),
             at.scale
         )))

@@ -28,7 +28,7 @@ pub(crate) struct AngleStiffness(Vec<f64>);
 
 impl AngleStiffness {
     /// The same at every angle, N/m^{3/2}.
-    pub fn constant(stiffness: f64) -> Self {
+    pub(crate) fn constant(stiffness: f64) -> Self {
         Self(vec![stiffness])
     }
 
@@ -36,7 +36,7 @@ impl AngleStiffness {
     ///
     /// # Errors
     /// [`BearingError`] of [`hertz::stiffness`], and where no degree meets the accuracy.
-    pub fn fit(exact: impl Fn(f64) -> Result<f64, BearingError>) -> Result<Self, BearingError> {
+    pub(crate) fn fit(exact: impl Fn(f64) -> Result<f64, BearingError>) -> Result<Self, BearingError> {
         use std::f64::consts::PI;
         let mut worst = f64::INFINITY;
         for degree in DEGREES {
@@ -73,7 +73,7 @@ impl AngleStiffness {
 
     /// k and its first two derivatives by the cosine; constant below a cosine of zero.
     #[inline]
-    pub fn at(&self, cosine: f64) -> [f64; 3] {
+    pub(crate) fn at(&self, cosine: f64) -> [f64; 3] {
         let t = 2.0 * cosine.clamp(0.0, 1.0) - 1.0;
         // Clenshaw's recurrence with its derivatives by t
         let [mut b1, mut b2, mut d1, mut d2, mut e1, mut e2] = [0.0; 6];
@@ -146,7 +146,7 @@ pub(crate) struct GrooveState {
 impl GrooveContact {
     /// The contact at a vector `d`, m.
     #[inline]
-    pub fn at(&self, d: Vector2<f64>) -> GrooveState {
+    pub(crate) fn at(&self, d: Vector2<f64>) -> GrooveState {
         // a ball on the groove's centre touches nothing, whatever its direction
         let distance = d.norm().max(f64::MIN_POSITIVE);
         let normal = d / distance;

@@ -83,14 +83,15 @@ impl RigidShaft {
     pub fn equilibrium(&self, load: &ShaftLoad) -> Result<ShaftEquilibrium, BearingError> {
         self.check(load)?;
         let start = self.start(Five::zeros());
-        let found = match self.search(start, load) {
+        let found = match self.search(start, load, true) {
             Ok(found) => found,
             Err(failed) => self.in_load_steps(start, load).map_err(|_| failed)?,
         };
         self.result(&found)
     }
 
-    /// The equilibrium of [`Self::equilibrium`] first, then the other stable ones that are found from starts to several sides.
+    /// The equilibrium of [`Self::equilibrium`] first, then the other stable ones that are found from starts to several sides, then
+    /// the saddles between neighbours. Places along a direction that nothing holds count as one.
     ///
     /// # Errors
     /// As [`Self::equilibrium`]; a start that leads nowhere is no error.
@@ -102,15 +103,30 @@ impl RigidShaft {
             let (sin, cos) = (along + TAU * f64::from(step) / 12.0).sin_cos();
             for axial in [-0.5, 0.0, 0.5] {
                 let aside = Five::from([0.05 * cos, 0.05 * sin, axial, 0.0, 0.0]) * distance;
-                let other = self.search(self.start(aside), load).and_then(|found| self.result(&found));
-                if let Ok(other) = other
-                    && all.iter().all(|known| self.apart(known, &other) > SAME * distance)
-                {
-                    all.push(other);
-                }
+                self.keep(&mut all, self.search(self.start(aside), load, true));
             }
         }
+        let (sin, cos) = along.sin_cos();
+        let across =
+            |rest: &ShaftEquilibrium| rest.displacement.translation[1] * cos - rest.displacement.translation[0] * sin;
+        let mut stable: Vec<&ShaftEquilibrium> = all.iter().collect();
+        stable.sort_by(|a, b| across(a).total_cmp(&across(b)));
+        let places = stable.iter().map(|rest| rest.displacement.vector().component_div(&self.units()));
+        let places: Vec<Five> = places.collect();
+        for pair in places.windows(2) {
+            let between = 0.5 * (pair[0] + pair[1]);
+            self.keep(&mut all, self.search(self.start(between), load, false));
+        }
         Ok(all)
+    }
+
+    /// Adds an equilibrium that is not known.
+    fn keep(&self, all: &mut Vec<ShaftEquilibrium>, found: Result<Found, BearingError>) {
+        let Ok(other) = found.and_then(|found| self.result(&found)) else { return };
+        let apart = |known: &ShaftEquilibrium| self.apart(known, &other) > SAME * self.centre_distance();
+        if other.directions_loose == 0 && all.iter().all(apart) {
+            all.push(other);
+        }
     }
 
     fn check(&self, load: &ShaftLoad) -> Result<(), BearingError> {
@@ -169,15 +185,15 @@ impl RigidShaft {
                 moment: load.moment.map(|moment| share * moment),
                 place: load.place,
             };
-            let next = self.search(at, &part)?;
+            let next = self.search(at, &part, true)?;
             at = next.at;
             found = Some(next);
         }
         found.ok_or_else(|| BearingError("no share of the load was tried".to_owned()))
     }
 
-    /// Walks downhill from a start to a minimum.
-    fn search(&self, start: Five, load: &ShaftLoad) -> Result<Found, BearingError> {
+    /// Walks downhill from a start to a minimum; or, not downhill, to the next place in balance, a saddle as well.
+    fn search(&self, start: Five, load: &ShaftLoad, downhill: bool) -> Result<Found, BearingError> {
         let free: Vec<usize> = (0..5).filter(|&row| self.held[row].is_none()).collect();
         let reach = self.centre_distance();
         let arm = self.arm();
@@ -199,7 +215,7 @@ impl RigidShaft {
             let scale = applied.max(balance.carried).max(ball_weight);
             let falling = -0.01 * scale / arm - HELD;
             let softest = (0..free.len()).min_by(|&a, &b| eigen.eigenvalues[a].total_cmp(&eigen.eigenvalues[b]));
-            let saddle = softest.filter(|&index| eigen.eigenvalues[index] < falling);
+            let saddle = softest.filter(|&index| downhill && eigen.eigenvalues[index] < falling);
             let error = gradient.amax();
             let round_off = ROUND_OFF * reach * stiffness.iter().fold(0.0_f64, |most, k| most.max(k.abs()));
             let balanced =
@@ -220,7 +236,8 @@ impl RigidShaft {
                 _ => {
                     let mut step = DVector::zeros(free.len());
                     for (&curvature, direction) in eigen.eigenvalues.iter().zip(eigen.eigenvectors.column_iter()) {
-                        let along = direction.dot(&gradient) / curvature.abs().max(HELD);
+                        let size = curvature.abs().max(HELD);
+                        let along = direction.dot(&gradient) / if downhill { size } else { size.copysign(curvature) };
                         step -= direction * along.clamp(-most, most);
                     }
                     // with inertia the stiffness is not symmetric: Newton's own step is the better one near the end
@@ -239,7 +256,13 @@ impl RigidShaft {
                     Ok(next) => {
                         let overrun: f64 = free.iter().zip(step.iter()).map(|(&row, s)| next.gradient[row] * s).sum();
                         let small = error <= round_off.max(1e3 * FORCE_TOLERANCE * scale);
-                        let done = overrun <= 0.5 * slope || small || halving == HALVINGS;
+                        let closer = match downhill {
+                            true => overrun <= 0.5 * slope,
+                            false => {
+                                free.iter().map(|&row| next.gradient[row].powi(2)).sum::<f64>().sqrt() < gradient.norm()
+                            }
+                        };
+                        let done = closer || small || halving == HALVINGS;
                         tried = Some((trial, next));
                         if done {
                             break;

@@ -61,7 +61,7 @@ impl Grooves {
     /// # Errors
     /// [`BearingError`]: radial play of the centre distance or more; a one-way bearing without play, which has no free contact
     /// angle.
-    pub fn new(geometry: &BearingGeometry, thrust: Thrust) -> Result<Self, BearingError> {
+    pub(crate) fn new(geometry: &BearingGeometry, thrust: Thrust) -> Result<Self, BearingError> {
         let dimensions = geometry.dimensions();
         let ball = geometry.ball_radius();
         let seats = [dimensions.inner_groove_radius - ball, dimensions.outer_groove_radius - ball];

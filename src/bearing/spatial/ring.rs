@@ -70,8 +70,6 @@ pub(crate) struct SeenPlace {
 pub(crate) struct SeenByAll {
     /// Derivatives of X'.
     pub moved: [Vector3<f64>; 7],
-    /// Second derivatives of X'.
-    pub bent: [[Vector3<f64>; 7]; 7],
     /// Unit vectors outwards and around at the ball, in the inner ring's frame.
     pub outwards: Vector3<f64>,
     pub around: Vector3<f64>,
@@ -84,7 +82,7 @@ pub(crate) struct SeenByAll {
 }
 
 impl InnerFrame {
-    pub fn new(displacement: &RingDisplacement) -> Self {
+    pub(crate) fn new(displacement: &RingDisplacement) -> Self {
         let [a, b] = displacement.tilt;
         let half_tilt = 0.5 * Vector3::new(a, b, 0.0);
         Self { translation: displacement.translation.into(), half_tilt, factor: 2.0 / (1.0 + half_tilt.norm_squared()) }
@@ -105,7 +103,7 @@ impl InnerFrame {
 
     /// The plane at an azimuth with these `[cos, sin]`, radial places counted from the radius `base`.
     #[inline]
-    pub fn plane(&self, azimuth: [f64; 2], base: f64) -> BallPlane {
+    pub(crate) fn plane(&self, azimuth: [f64; 2], base: f64) -> BallPlane {
         let outwards = Vector3::new(azimuth[0], azimuth[1], 0.0);
         let h = self.factor;
         BallPlane {
@@ -120,13 +118,13 @@ impl InnerFrame {
     }
 
     /// ∂ω/∂θ_a of the rotation vector in the ring's own frame, h (e − g × e) / 2, with its derivative by θ_b.
-    pub fn spin(&self, axis: usize) -> Vector3<f64> {
+    pub(crate) fn spin(&self, axis: usize) -> Vector3<f64> {
         let e = unit(axis);
         0.5 * self.factor * (e - self.half_tilt.cross(&e))
     }
 
     /// ∂/∂θ_b of [`Self::spin`].
-    pub fn spin_by(&self, axis: usize, by: usize) -> Vector3<f64> {
+    pub(crate) fn spin_by(&self, axis: usize, by: usize) -> Vector3<f64> {
         let e = unit(axis);
         let h = self.factor;
         let of_factor = -h * h * self.half_tilt[by] * (e - self.half_tilt.cross(&e));
@@ -134,7 +132,7 @@ impl InnerFrame {
     }
 
     /// All derivatives at a ball's place (radial from the plane's base, axial).
-    pub fn seen_by_all(&self, plane: &BallPlane, place: Vector2<f64>) -> SeenByAll {
+    pub(crate) fn seen_by_all(&self, plane: &BallPlane, place: Vector2<f64>) -> SeenByAll {
         let (g, h) = (self.half_tilt, self.factor);
         let radius = plane.base + place.x;
         let p = radius * plane.outwards + place.y * Vector3::z() - self.translation;
@@ -183,14 +181,14 @@ impl InnerFrame {
             }
         }
         let around = Vector3::new(-outwards.y, outwards.x, 0.0);
-        SeenByAll { moved, bent, outwards, around, radius, slope, bend }
+        SeenByAll { moved, outwards, around, radius, slope, bend }
     }
 }
 
 impl BallPlane {
     /// Where the inner ring sees a ball at a place (radial from the base, axial).
     #[inline]
-    pub fn seen(&self, place: Vector2<f64>) -> SeenPlace {
+    pub(crate) fn seen(&self, place: Vector2<f64>) -> SeenPlace {
         let [fixed, radial, axial] = self.shift;
         let shift = fixed + place.x * radial + place.y * axial;
         let own = self.base + place.x;

@@ -189,3 +189,34 @@ impl Axis {
         stiffness
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use nalgebra::{Rotation3, Unit};
+
+    /// The axis against a rotation by angle and axis, its derivatives and the stiffness of a turned load against differences.
+    #[test]
+    fn the_axis_turns_with_its_loads() {
+        let at = |tilt: [f64; 2]| Axis::new(&RingDisplacement { translation: [0.0; 3], tilt });
+        let tilt = [0.4, -0.3];
+        let axis = at(tilt);
+        let vector = Vector3::new(tilt[0], tilt[1], 0.0);
+        let rotation = Rotation3::from_axis_angle(&Unit::new_normalize(vector), 2.0 * (0.5 * vector.norm()).atan());
+        assert!((rotation * Vector3::z() - Vector3::z() - axis.change).norm() < 1e-14);
+        let (place, force) = (2.0, Vector3::new(3.0, -5.0, 7.0));
+        let step = 1e-5;
+        for a in 0..2 {
+            let [mut low, mut high] = [tilt; 2];
+            low[a] -= step;
+            high[a] += step;
+            let [before, after] = [at(low), at(high)];
+            // differences over 1e-5: 1e-10 of derivatives of order one, round-off 1e-11
+            assert!(((after.change - before.change) / (2.0 * step) - axis.by[a]).norm() < 1e-9);
+            let loads = [&before, &after].map(|axis| axis.generalised(place, force, [0.1, 0.2]));
+            let rate = (loads[1] - loads[0]) / (2.0 * step);
+            let column = axis.turning(place, force).column(3 + a).into_owned();
+            assert!((rate - column).norm() < 1e-8, "{rate} {column}");
+        }
+    }
+}

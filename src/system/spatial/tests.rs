@@ -327,7 +327,7 @@ fn results_turn_with_the_scene() {
 /// Two methods that share nothing but the force.
 #[test]
 fn independent_integrators_agree() {
-    let (structure, mut setup) = pair(300.0);
+    let (structure, mut setup) = pair(50.0);
     for own in &mut setup.bearings {
         own.contact_damping = 1.0;
     }

@@ -28,7 +28,7 @@ fuzz_target!(|bytes: &[u8]| {
 /// What later stages rely on.
 fn check(case: &Case) {
     case.validate().expect("a case that was read holds its rules");
-    for purpose in [Purpose::Modes, Purpose::Condense, Purpose::Frf, Purpose::Run, Purpose::Chart] {
+    for purpose in [Purpose::Modes, Purpose::Condense, Purpose::Frf, Purpose::Run, Purpose::Chart, Purpose::Bearing] {
         let _ = case.ready_for(purpose);
     }
     assert!(case.target() > 0.0);

@@ -3,17 +3,18 @@
 use std::f64::consts::PI;
 
 use super::super::{
-    Bearing, Case, ContactStiffness, Defect, DentDefect, DentProfile, FlatDefect, MeasuredDefect, Ring, Slip,
+    Bearing, Case, ContactStiffness, Defect, DentDefect, DentProfile, FlatDefect, MeasuredDefect, Preload, Ring, Slip,
 };
 use super::range::{
-    self, ABOVE_ZERO, DEGREES, RATIO, ZERO_OR_MORE, above, below, count, kept, known_isotropic, not_beside, not_empty,
-    repeated,
+    self, ABOVE_ZERO, ACUTE, DEGREES, RATIO, ZERO_OR_MORE, above, below, count, kept, known_isotropic, not_beside,
+    not_empty, repeated,
 };
 use super::rule::{BrokenRule, Rule, short};
 use crate::bearing::Race;
+use crate::bearing::spatial::Thrust;
 use crate::system::{BallsInertia, Formulation};
 
-pub(super) fn bearing(case: &Case, bearing: &Bearing, ring: &Ring) -> Result<(), BrokenRule> {
+pub(super) fn bearing(case: &Case, bearing: &Bearing, ring: Option<&Ring>) -> Result<(), BrokenRule> {
     count("bearing.balls", bearing.balls, 3..=40, "3 to 40 balls")?;
     ball(case, bearing)?;
     races(case, bearing, ring)?;
@@ -92,14 +93,14 @@ fn ball(case: &Case, bearing: &Bearing) -> Result<(), BrokenRule> {
     Ok(())
 }
 
-fn races(case: &Case, bearing: &Bearing, ring: &Ring) -> Result<(), BrokenRule> {
+fn races(case: &Case, bearing: &Bearing, ring: Option<&Ring>) -> Result<(), BrokenRule> {
     let races = &bearing.race_material;
     known_isotropic(case, "bearing.race_material", &races.inner)?;
     known_isotropic(case, "bearing.race_material", &races.outer)?;
     let (inner, ball) = (bearing.inner_race_radius, bearing.ball_radius);
     ABOVE_ZERO.check("bearing.inner_race_radius", inner)?;
     above("bearing.outer_race_radius", bearing.outer_race_radius, "`bearing.inner_race_radius`", inner)?;
-    race_in_ring(bearing, ring)?;
+    ring.map_or(Ok(()), |ring| race_in_ring(bearing, ring))?;
     for (key, groove) in [
         ("bearing.inner_groove_radius", bearing.inner_groove_radius),
         ("bearing.outer_groove_radius", bearing.outer_groove_radius),
@@ -146,6 +147,34 @@ fn room(bearing: &Bearing) -> Result<(), BrokenRule> {
         kept(found.abs() <= limit, "bearing.radial_play", || {
             Rule::beyond(found, "at most a tenth of the ball's radius either way", limit)
         })?;
+    }
+    if let Some(angle) = bearing.contact_angle_deg {
+        ACUTE.check("bearing.contact_angle_deg", angle)?;
+        not_beside("bearing.contact_angle_deg", "bearing.radial_play", bearing.radial_play.is_some())?;
+        let play = bearing.play();
+        kept(play <= limit, "bearing.contact_angle_deg", || {
+            let (play, limit) = (short(play), short(limit));
+            Rule::new(format!(
+                "the angle asks for a radial play of {play} m between these grooves, expected at most a tenth of the ball's radius ({limit} m)"
+            ))
+        })?;
+    }
+    let one_way = bearing.thrust_or_default() != Thrust::Both;
+    kept(!one_way || bearing.play() > 0.0, "bearing.thrust", || {
+        let found = format!("a one-way thrust with a radial play of {} m", short(bearing.play()));
+        Rule::found(found, "play above 0, which gives a free contact angle")
+            .with_help("set `bearing.contact_angle_deg`, or a positive `bearing.radial_play`")
+    })?;
+    match bearing.preload {
+        Some(Preload::Force(force)) => {
+            ABOVE_ZERO.check("bearing.preload.force", force)?;
+            range::LOAD.check("bearing.preload.force", force)?;
+        }
+        Some(Preload::Displacement(displacement)) => {
+            ABOVE_ZERO.check("bearing.preload.displacement", displacement)?;
+            below("bearing.preload.displacement", displacement, "`bearing.ball_radius`", bearing.ball_radius)?;
+        }
+        None => {}
     }
     let pitch = 0.5 * (bearing.inner_race_radius + bearing.outer_race_radius);
     // A ball of the pitch radius or more leaves no angle: then none fits beside it.

@@ -22,7 +22,7 @@ impl Case {
     /// # Errors
     /// The first [`BrokenRule`], in the order of the tables in the file's documentation.
     pub(crate) fn validate(&self) -> Result<(), BrokenRule> {
-        if self.housing.is_none() && !self.has_rings() {
+        if self.housing.is_none() && !self.has_rings() && self.bearing.is_none() {
             return Err(Rule::nothing_to_model().at("housing"));
         }
         report::title(&self.title)?;
@@ -33,9 +33,13 @@ impl Case {
         for seat in self.seats() {
             let own = |found: Result<(), BrokenRule>| found.map_err(|broken| seat.broken(broken));
             own(structure::ring(self, &seat))?;
-            own(seat.bearing.map_or(Ok(()), |bearing| contact::bearing(self, bearing, seat.ring)))?;
+            own(seat.bearing.map_or(Ok(()), |bearing| contact::bearing(self, bearing, Some(seat.ring))))?;
         }
-        range::needs("bearing", "[ring]", self.bearing.is_none() || self.has_rings())?;
+        if let (Some(bearing), false) = (&self.bearing, self.has_rings()) {
+            // a bearing by itself is one for `plummer bearing`
+            range::needs("bearing", "[ring]", self.housing.is_none())?;
+            contact::bearing(self, bearing, None)?;
+        }
         self.shaft.iter().try_for_each(time::shaft)?;
         self.damping.iter().try_for_each(time::damping)?;
         self.speed.iter().try_for_each(time::speed)?;

@@ -42,6 +42,8 @@ pub(super) const LOAD: Range = Range("at most 1e15 either way", |x| x.abs() <= 1
 pub(super) const STIFFNESS: Range = Range("a stiffness of at most 1e20", |x| x <= 1e20);
 /// Beyond, an angle has lost digits or is a number of something else.
 pub(super) const DEGREES: Range = Range("an angle from -36000 to 36000 degrees", |x| x.abs() <= 36_000.0);
+/// Neither zero nor ninety.
+pub(super) const ACUTE: Range = Range("an angle above 0 and below 90 degrees", |x| x > 0.0 && x < 90.0);
 pub(super) const POISSON: Range = Range("a number above -1 and below 0.5", |x| x > -1.0 && x < 0.5);
 /// Wide beyond all materials: further out, products of matrix entries leave the numbers.
 pub(super) const DENSITY: Range = Range("a density from 1e-9 to 1e9 kg/m^3", |x| (1e-9..=1e9).contains(&x));

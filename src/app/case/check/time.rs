@@ -21,16 +21,17 @@ pub(super) fn shaft(shaft: &Shaft) -> Result<(), BrokenRule> {
     range::MASS.check("shaft.mass", shaft.mass)?;
     ZERO_OR_MORE.check("shaft.unbalance", shaft.unbalance)?;
     range::LOAD.check("shaft.unbalance", shaft.unbalance)?;
-    let loads = |key: String, force: [f64; 2]| force.iter().try_for_each(|&part| range::LOAD.check(key.clone(), part));
-    loads("shaft.gravity".to_owned(), shaft.gravity)?;
+    let loads = |key: String, force: &[f64]| force.iter().try_for_each(|&part| range::LOAD.check(key.clone(), part));
+    loads("shaft.gravity".to_owned(), &shaft.gravity)?;
     for (index, load) in shaft.loads.iter().enumerate() {
         let key = format!("shaft.loads[{index}]");
         match load {
-            Load::Constant(force) => loads(key, *force)?,
+            Load::Constant(force) => loads(key, force)?,
+            Load::Spatial { force, moment } => loads(key.clone(), force).and_then(|()| loads(key, moment))?,
             Load::Profile(points) => {
                 let key = format!("{key}.profile");
                 increasing(&key, points.iter().map(|point| point.time))?;
-                points.iter().try_for_each(|point| loads(key.clone(), point.force))?;
+                points.iter().try_for_each(|point| loads(key.clone(), &point.force))?;
             }
         }
     }

@@ -48,7 +48,7 @@ impl Machine {
         // a folder's case may be told another bearing
         let (other, catalogue) = match named_bearing(asked)? {
             Some(Named::Catalogue(bearing)) => (None, Some(bearing)),
-            Some(Named::Case(path)) if is_run => (Some(Case::load(path, &options.set)?), None),
+            Some(Named::Case(path)) if is_run => (Some(in_the_plane(path, options)?), None),
             _ => (None, None),
         };
         let typed = asked.orders.is_some() || asked.balls.is_some() || catalogue.is_some();
@@ -150,6 +150,16 @@ impl Machine {
 /// The shaft's speed that a file states of itself, Hz.
 fn own_speed(signal: &MeasuredSignal) -> Option<f64> {
     signal.speed_hz.filter(|&hz| hz.is_finite() && hz > 0.0)
+}
+
+/// A case whose bearing stays in its plane, as orders at no contact angle do.
+///
+/// # Errors
+/// [`CliError`] for a case that cannot be read, or with keys of the bearing in space.
+pub(super) fn in_the_plane(path: &Path, options: &Options) -> Result<Case, CliError> {
+    let case = Case::load(path, &options.set)?;
+    case.in_the_plane()?;
+    Ok(case)
 }
 
 /// What `--bearing` names.

@@ -3,7 +3,7 @@
 //! Signals of a file, and all that nothing says of them.
 
 use super::AnalyzeArguments;
-use super::machine::{Machine, Named, named_bearing};
+use super::machine::{Machine, Named, in_the_plane, named_bearing};
 use crate::app::case::{Case, EnvelopeBand, Purpose, ReportDetails};
 use crate::app::cli::earlier_results::{Wanted, case_of_results};
 use crate::app::cli::output::extend_new;
@@ -63,7 +63,7 @@ impl Source {
             (input.join(RUN.arrays), Some(case))
         } else {
             let case = match named_bearing(asked)? {
-                Some(Named::Case(path)) => Some(Case::load(path, &options.set)?),
+                Some(Named::Case(path)) => Some(in_the_plane(path, options)?),
                 Some(Named::Catalogue(_)) | None => None,
             };
             (input.to_owned(), case)

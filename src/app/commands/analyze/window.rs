@@ -456,6 +456,7 @@ fn ball_weights(case: &Case) -> Option<f64> {
     let size = |[x, y]: [f64; 2]| x.hypot(y);
     let largest = |load: &Load| match load {
         Load::Constant(force) => size(*force),
+        Load::Spatial { force: [x, y, _], .. } => size([*x, *y]),
         Load::Profile(points) => points.iter().fold(0.0, |most, at| size(at.force).max(most)),
     };
     let load = shaft.mass * size(shaft.gravity) + shaft.loads.iter().map(largest).sum::<f64>();

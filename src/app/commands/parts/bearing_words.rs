@@ -185,6 +185,11 @@ fn shaft(shaft: &Shaft) -> Vec<Fact> {
     }
     let load = |load: &Load| match load {
         Load::Constant(force) => vector(*force, "N"),
+        Load::Spatial { force, moment } => {
+            let [force, moment] = [&force[..], &moment[..]]
+                .map(|parts| parts.iter().map(|part| given(*part)).collect::<Vec<_>>().join(", "));
+            format!("({force}) N, moment ({moment}) N m")
+        }
         Load::Profile(points) if points.len() > TOLD_POINTS => format!("a profile of {} points", points.len()),
         Load::Profile(points) => {
             let points = points.iter().map(|point| format!("{} at {} s", vector(point.force, "N"), given(point.time)));

@@ -38,6 +38,9 @@ impl HousingSize {
 /// The inputs of a computation: what of the case a command uses, with the size of its housing.
 pub(crate) fn inputs(case: &Case, purpose: Purpose, size: Option<&HousingSize>) -> Vec<Fact> {
     let mut facts = Vec::new();
+    if purpose == Purpose::Bearing {
+        return bearing_words::facts(case, false);
+    }
     match (case.meshed_housing(), case.superelement()) {
         (Some(housing), _) => facts.extend(housing_facts(case, housing, size)),
         (None, Some(path)) => {

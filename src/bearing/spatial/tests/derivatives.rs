@@ -3,7 +3,6 @@
 use super::super::*;
 use crate::bearing::samples::{source_bearing, steel};
 use crate::bearing::{BearingGeometry, RaceContacts};
-use approx::assert_relative_eq;
 
 /// The source's bearing with a play of 5 um, or a free contact angle.
 pub(super) fn bearing(thrust: Thrust, control: RaceControl) -> SpatialBearing {

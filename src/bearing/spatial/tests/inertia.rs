@@ -3,6 +3,7 @@
 use super::super::*;
 use super::derivatives::bearing;
 use super::published::{alone, harris_218};
+use crate::bearing::hertz::{PrincipalCurvatures, effective_modulus, stiffness};
 use crate::bearing::kinematics::BallRow;
 use approx::assert_relative_eq;
 use nalgebra::Vector3;
@@ -84,6 +85,25 @@ fn speeds_at_rest_angles_are_the_orders() {
     );
 }
 
+/// Patches and pressures are those of the curvatures at the contact angle in force, by Harris's sums (2.28), (2.30).
+#[test]
+fn patches_belong_to_the_angle_in_force() {
+    let bearing = harris_218(RaceControl::Outer);
+    let load = ShaftLoad { force: [0.0, 0.0, 17_800.0], ..ShaftLoad::default() };
+    let ball = alone(bearing.clone(), 0.0).equilibrium(&load).unwrap().bearings[0].balls[0];
+    for (race, sign) in [(0, 1.0), (1, -1.0)] {
+        let gamma = sign * 22.23 / 125.26 * ball.contact_angle[race].unwrap().cos();
+        let sum = (4.0 - 1.0 / 0.5232 + 2.0 * gamma / (1.0 - gamma)) / 22.23e-3;
+        let flat = (1.0 / 0.5232 + 2.0 * gamma / (1.0 - gamma)) / (sum * 22.23e-3);
+        // a body of this sum and difference against a flat
+        let body = PrincipalCurvatures { plane_1: 0.5 * sum * (1.0 - flat), plane_2: 0.5 * sum * (1.0 + flat) };
+        let modulus = effective_modulus([207e9; 2], [0.3; 2]).unwrap();
+        let patch = stiffness(body, PrincipalCurvatures::flat(), modulus).unwrap().patch(ball.load[race]);
+        assert_relative_eq!(ball.patch[race].peak_pressure, patch.peak_pressure, max_relative = 1e-9);
+        assert_relative_eq!(ball.patch[race].longer, patch.longer, max_relative = 1e-9);
+    }
+}
+
 /// A ball that only the outer race holds carries its centrifugal force at no angle; without speed it touches nothing. Neither loads
 /// the ring.
 #[test]
@@ -98,7 +118,12 @@ fn balls_without_inner_contact_are_states_too() {
         assert!(ball.patch[1].peak_pressure > 1e7);
     }
     let still = bearing.state(&centred, BearingCondition::default()).unwrap();
-    assert!(still.balls.iter().all(|ball| ball.load == [0.0; 2] && ball.contact_angle == [None; 2]));
+    assert!(
+        still
+            .balls
+            .iter()
+            .all(|ball| ball.load.iter().all(|load| load.abs() <= 0.0) && ball.contact_angle == [None; 2])
+    );
     for state in [&state, &still] {
         assert!(state.load.iter().chain(state.stiffness.iter().flatten()).all(|value| value.abs() <= 0.0));
     }
@@ -129,6 +154,13 @@ fn every_ball_finds_its_place() {
         seed = seed.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
         (seed >> 11) as f64 / (1_u64 << 53) as f64 * 2.0 - 1.0
     };
+    // a ball beside the inner groove's centre, which says nothing of the angle at which it rolls
+    let displacement = RingDisplacement {
+        translation: [2.744905190908074e-5, -2.0377076329284468e-5, 1.240533316890416e-5],
+        tilt: [0.0005447775719174451, -0.004722319129233072],
+    };
+    let condition = BearingCondition { cage_angle: 1.9148059512307998, shaft_speed: 23_546.0 };
+    bearing(Thrust::Both, RaceControl::Outer).state(&displacement, condition).unwrap();
     let mut loaded = 0;
     for thrust in [Thrust::Both, Thrust::Positive, Thrust::Negative] {
         for control in [RaceControl::Outer, RaceControl::Shared] {

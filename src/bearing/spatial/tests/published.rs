@@ -145,8 +145,8 @@ fn in_the_plane_forces_are_those_of_the_plane_model() {
         }
     }
     assert_eq!(loaded, 3);
-    for axis in 0..2 {
-        assert_relative_eq!(sum[axis], state.load[axis], max_relative = 1e-8);
+    for (sum, load) in sum.into_iter().zip(state.load) {
+        assert_relative_eq!(sum, load, max_relative = 1e-8);
     }
     // nothing leaves the plane
     for part in &state.load[2..] {

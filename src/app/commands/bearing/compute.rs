@@ -1,0 +1,254 @@
+//! `plummer bearing`: where the shaft rests, and what becomes of it with load, speed and preload.
+
+use crate::app::case::{Case, Preload};
+use crate::app::error::ComputeError;
+use crate::app::scene::spatial::SpatialScene;
+use crate::bearing::BearingError;
+use crate::bearing::kinematics::{BallRow, DefectOrders};
+use crate::bearing::spatial::{BallState, ShaftEquilibrium, ShaftLoad, Thrust};
+use crate::numerics::Watch;
+use schemars::JsonSchema;
+use serde::Serialize;
+use std::f64::consts::TAU;
+
+/// Points of a curve.
+const POINTS: usize = 25;
+
+/// Factors of the load from the first to the last point of the curve.
+const FACTORS: [f64; 2] = [0.1, 10.0];
+
+/// Preloads of the curve: from this share of its middle to this multiple.
+const PRELOADS: [f64; 2] = [0.1, 4.0];
+
+/// Result of the command.
+#[derive(Debug, Clone)]
+pub struct BearingResult {
+    /// Speed of the shaft, rpm.
+    pub speed_rpm: f64,
+    /// Instant of the loads, s.
+    pub time_s: f64,
+    /// Load on the shaft, weight and preload included.
+    pub load: ShaftLoad,
+    /// Thrust that the bearing holds.
+    pub thrust: Thrust,
+    /// Radial play, m, and free contact angle, rad, where there is one.
+    pub play: f64,
+    /// Free contact angle, rad; `None` for a bearing without play.
+    pub free_contact_angle: Option<f64>,
+    /// The equilibrium to which the load leads, then the others that were found.
+    pub equilibria: Vec<ShaftEquilibrium>,
+    /// Mean contact angle of the balls under load, each weighted by its load at the inner race, rad.
+    pub contact_angle: f64,
+    /// Orders at that angle.
+    pub orders: DefectOrders,
+    /// Over the factor of the load.
+    pub over_load: Vec<CurvePoint>,
+    /// Over the speed, rpm; empty without speed.
+    pub over_speed: Vec<CurvePoint>,
+    /// Over the preload: a force, N, or a displacement, m, where the case gives one.
+    pub over_preload: Vec<CurvePoint>,
+    /// Whether the preload is a displacement.
+    pub preload_is_displacement: bool,
+    /// What of the model may be meant otherwise, a sentence each.
+    pub doubts: Vec<String>,
+}
+
+/// Displacement and stiffness at one point of a curve; `None` where no equilibrium was found.
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+pub struct CurvePoint {
+    /// Factor of the load, speed (rpm), or preload (N, or m).
+    pub at: f64,
+    /// Displacement x, y, z (m) and tilt about x, y (rad).
+    pub displacement: Option<[f64; 5]>,
+    /// Stiffness along x, y, z (N/m) and against tilt about x, y (N m/rad).
+    pub stiffness: Option<[f64; 5]>,
+}
+
+/// Finds where the shaft of a case rests in its bearing, at the highest speed of the case or at `rpm`.
+///
+/// # Errors
+/// [`ComputeError`]: what is out of range; a load that the bearing cannot carry.
+pub fn compute_bearing(
+    case: &Case,
+    rpm: Option<f64>,
+    holds_tilt: bool,
+    watch: &impl Watch,
+) -> Result<BearingResult, ComputeError> {
+    let (asked, _) = case.for_bearing()?;
+    let scene = SpatialScene::build(case, rpm, holds_tilt)?;
+    if let (Some(Preload::Displacement(_)), true) = (scene.preload, scene.load.force[2].abs() > 0.0) {
+        return Err(ComputeError::input(
+            "bearing.preload.displacement: found beside a load along z, expected one of the two: the inner ring is held along z",
+            "leave the load along z out, or give the preload as a force",
+        ));
+    }
+    watch.stage("equilibrium");
+    let (shaft, load) = scene.shaft()?;
+    let equilibria = shaft.find_all(&load).map_err(no_equilibrium)?;
+    let balls = equilibria.first().and_then(|taken| taken.bearings.first()).map_or(&[][..], |state| &state.balls);
+    let geometry = scene.bearing.geometry();
+    let contact_angle = mean_angle(balls);
+    let diameters = [2.0 * geometry.ball_radius(), 2.0 * geometry.pitch_radius()];
+    let row = BallRow::new(geometry.balls(), diameters[0], diameters[1], contact_angle.abs())
+        .map_err(ComputeError::bearing("bearing: "))?;
+    let mut result = BearingResult {
+        speed_rpm: scene.speed * 60.0 / TAU,
+        time_s: scene.time,
+        load,
+        thrust: scene.bearing.thrust(),
+        play: geometry.radial_play(),
+        free_contact_angle: geometry.free_contact_angle(),
+        contact_angle,
+        orders: row.orders(),
+        over_load: Vec::new(),
+        over_speed: Vec::new(),
+        over_preload: Vec::new(),
+        preload_is_displacement: matches!(scene.preload, Some(Preload::Displacement(_))),
+        doubts: doubts(case, asked, &scene, &equilibria),
+        equilibria,
+    };
+    watch.stage("curves");
+    result.over_load = curve(&geometric(FACTORS), |factor| {
+        let by = |part: f64| factor * part;
+        Ok((scene.clone(), ShaftLoad { force: load.force.map(by), moment: load.moment.map(by), ..load }))
+    })?;
+    watch.fraction(1.0 / 3.0);
+    if scene.speed.abs() > 0.0 {
+        let speeds: Vec<f64> =
+            (0..POINTS).map(|point| 2.0 * result.speed_rpm * point as f64 / (POINTS - 1) as f64).collect();
+        result.over_speed =
+            curve(&speeds, |rpm| Ok((SpatialScene { speed: rpm * TAU / 60.0, ..scene.clone() }, load)))?;
+    }
+    watch.fraction(2.0 / 3.0);
+    let size = scene.load.force.iter().fold(0.0_f64, |most, part| most.max(part.abs()));
+    let (middle, by): (f64, fn(f64) -> Preload) = match scene.preload {
+        Some(Preload::Displacement(displacement)) => (displacement, Preload::Displacement),
+        Some(Preload::Force(force)) => (force, Preload::Force),
+        None => (size, Preload::Force),
+    };
+    if middle > 0.0 {
+        result.over_preload = curve(&geometric(PRELOADS.map(|share| share * middle)), |preload| {
+            let scene = SpatialScene { preload: Some(by(preload)), ..scene.clone() };
+            let (_, load) = scene.shaft()?;
+            Ok((scene, load))
+        })?;
+    }
+    Ok(result)
+}
+
+/// Values beside which some are nothing but round-off, those as zero.
+pub(crate) fn without_round_off<const N: usize>(values: [f64; N]) -> [f64; N] {
+    let largest = values.iter().fold(0.0, |largest: f64, value| largest.max(value.abs()));
+    values.map(|value| if value.abs() < 1e-9 * largest { 0.0 } else { value })
+}
+
+/// An angle in degrees, as zero where it is nothing but round-off.
+pub(crate) fn shown_degrees(angle: f64) -> f64 {
+    let degrees = angle.to_degrees();
+    if degrees.abs() < 1e-9 { 0.0 } else { degrees }
+}
+
+impl BearingResult {
+    /// The loads that hold prescribed displacements, what is nothing but round-off beside the load and the ball loads as zero.
+    pub(crate) fn holding_load(&self, rest: &ShaftEquilibrium) -> [f64; 5] {
+        let balls = rest.bearings.iter().flat_map(|state| &state.balls);
+        let loads = self.load.force.iter().map(|part| part.abs()).chain(balls.map(|ball| ball.load[0]));
+        let largest = loads.fold(0.0, f64::max);
+        rest.holding_load.map(|load| if load.abs() < 1e-9 * largest { 0.0 } else { load })
+    }
+}
+
+/// A bearing that cannot be in balance: nothing is wrong with the numbers one by one.
+fn no_equilibrium(error: BearingError) -> ComputeError {
+    ComputeError::failed(
+        format!("the bearing at rest: {error}"),
+        "check loads, `bearing.thrust` and play; --hold-tilt holds the shaft's tilt, which one bearing alone hardly does",
+    )
+}
+
+/// Even steps of the logarithm.
+fn geometric([from, to]: [f64; 2]) -> Vec<f64> {
+    let share = |point: usize| point as f64 / (POINTS - 1) as f64;
+    (0..POINTS).map(|point| from * (to / from).powf(share(point))).collect()
+}
+
+fn curve(
+    places: &[f64],
+    scene_at: impl Fn(f64) -> Result<(SpatialScene, ShaftLoad), ComputeError>,
+) -> Result<Vec<CurvePoint>, ComputeError> {
+    let point = |&at: &f64| {
+        let (scene, load) = scene_at(at)?;
+        let (shaft, _) = scene.shaft()?;
+        // a point without equilibrium is a gap
+        let found = shaft.equilibrium(&load).ok();
+        let displacement = found.as_ref().map(|found| {
+            let ([x, y, z], [a, b]) = (found.displacement.translation, found.displacement.tilt);
+            [x, y, z, a, b]
+        });
+        let stiffness = found.map(|found| std::array::from_fn(|axis| found.stiffness[axis][axis]));
+        Ok(CurvePoint { at, displacement, stiffness })
+    };
+    places.iter().map(point).collect()
+}
+
+/// Mean contact angle at the inner race, weighted by the loads; 0 without any.
+fn mean_angle(balls: &[BallState]) -> f64 {
+    let loaded = balls.iter().filter_map(|ball| Some((ball.load[0], ball.contact_angle[0]?)));
+    let (sum, weight) =
+        loaded.fold((0.0, 0.0), |(sum, weight), (load, angle)| (sum + load * angle.abs(), weight + load));
+    if weight > 0.0 { sum / weight } else { 0.0 }
+}
+
+/// What of the case does not count here, and what of the result is to be looked at.
+fn doubts(
+    case: &Case,
+    asked: &crate::app::case::Bearing,
+    scene: &SpatialScene,
+    equilibria: &[ShaftEquilibrium],
+) -> Vec<String> {
+    let mut doubts = Vec::new();
+    let slips = asked.slip != crate::app::case::Slip::default();
+    for (key, given) in [
+        ("bearing.defects", !asked.defects.is_empty()),
+        ("bearing.waviness", !asked.waviness.is_empty()),
+        ("bearing.ball_radius_differences", !asked.ball_radius_differences.is_empty()),
+        ("bearing.slip", slips),
+        ("shaft.unbalance", case.shaft.as_ref().is_some_and(|shaft| shaft.unbalance > 0.0)),
+    ] {
+        if given {
+            doubts.push(format!(
+                "{key} does not count: the bearing at rest has sound races, equal balls and pure rolling"
+            ));
+        }
+    }
+    if case.housing.is_some() || case.ring.is_some() {
+        doubts.push("[housing] and [ring] do not count: both rings of the bearing are rigid here".to_owned());
+    }
+    let Some(taken) = equilibria.first() else { return doubts };
+    if taken.directions_loose > 0 {
+        doubts.push(format!(
+            "{} of the shaft's five directions are held by nothing: its place along them is where the search ended",
+            taken.directions_loose
+        ));
+    }
+    if !taken.is_stable() {
+        doubts.push("the equilibrium is a saddle: the shaft leaves it".to_owned());
+    }
+    let others = equilibria.iter().skip(1).filter(|rest| rest.is_stable()).count();
+    if others > 0 {
+        let others = if others == 1 { "another stable equilibrium" } else { "other stable equilibria" };
+        doubts.push(format!("the load has {others}: the table shows all that were found"));
+    }
+    let balls = taken.bearings.iter().flat_map(|state| &state.balls);
+    let wrong_side = balls.filter(|ball| {
+        let angle = ball.contact_angle[0].unwrap_or(0.0);
+        scene.bearing.thrust() != Thrust::Both && scene.bearing.thrust().sign() * angle < 0.0
+    });
+    let wrong_side = wrong_side.count();
+    if wrong_side > 0 {
+        doubts.push(format!(
+            "{wrong_side} balls touch the inner race on the side where an angular contact bearing has no shoulder: such a bearing may lose these contacts"
+        ));
+    }
+    doubts
+}

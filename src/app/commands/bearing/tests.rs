@@ -1,0 +1,78 @@
+//! The command from a case to its result and page.
+
+use super::compute::compute_bearing;
+use super::report::bearing_report;
+use crate::app::case::{Case, Source};
+use crate::numerics::Unwatched;
+use approx::assert_relative_eq;
+
+/// Harris's 218 bearing (see `bearing::spatial`), without weight.
+const CASE: &str = "[bearing]\nballs = 16\nball_radius = 11.115e-3\ninner_race_radius = 51.394e-3\n\
+    outer_race_radius = 73.866e-3\ninner_groove_radius = 11.630736e-3\nouter_groove_radius = 11.630736e-3\n\
+    contact_angle_deg = 40\nball_material = \"as printed\"\nrace_material = \"as printed\"\n\
+    [materials]\n\"as printed\" = { young = 207e9, poisson = 0.3, density = 7800 }\n\
+    [shaft]\nmass = 1\ngravity = [0, 0]\nloads = [{ force = [0, 0, 17800] }]\n";
+
+fn case(set: &[&str]) -> Case {
+    let set = set.iter().map(|&set| set.to_owned()).collect();
+    Case::from_source(Source { path: "case.toml".into(), text: CASE.to_owned(), set }).unwrap()
+}
+
+#[test]
+fn a_case_gives_the_published_angle_and_load() {
+    let case = case(&[]);
+    let result = compute_bearing(&case, None, false, &Unwatched).unwrap();
+    let balls = &result.equilibria[0].bearings[0].balls;
+    // 41.5 degrees and 1679 N; the pitch diameter is the printed one within 5 um
+    assert_relative_eq!(result.contact_angle.to_degrees(), 41.5, epsilon = 0.05);
+    assert_relative_eq!(balls[0].load[0], 1679.0, epsilon = 0.5);
+    assert_relative_eq!(result.free_contact_angle.unwrap().to_degrees(), 40.0, epsilon = 1e-9);
+    // orders at the angle in force, not at none
+    let ratio = 22.23 / 125.26 * result.contact_angle.cos();
+    assert_relative_eq!(result.orders.cage, 0.5 * (1.0 - ratio), max_relative = 1e-6);
+    assert!(result.over_speed.is_empty());
+    let json = serde_json::to_value(result.summary()).unwrap();
+    assert_eq!(json["thrust"], "positive");
+    assert_eq!(json["equilibria"][0]["balls"].as_array().unwrap().len(), 16);
+    // the curves pass through the result: factor 1 is their middle
+    let middle = &result.over_load[12];
+    assert_relative_eq!(middle.at, 1.0, max_relative = 1e-12);
+    assert_relative_eq!(
+        middle.displacement.unwrap()[2],
+        result.equilibria[0].displacement.translation[2],
+        max_relative = 1e-9
+    );
+    let report = bearing_report(&case, &result, "plummer bearing case.toml");
+    let titles: Vec<&str> = report.sections.iter().map(|section| section.title.as_str()).collect();
+    assert_eq!(titles, ["Inputs", "At rest", "Balls", "Orders", "Over the load", "Over the preload"]);
+}
+
+#[test]
+fn preload_speed_and_what_does_not_count() {
+    // a constant force adds to the load, a displacement holds the ring
+    let loads = "shaft.loads=[{force=[0,0,10000]}]";
+    let force = compute_bearing(&case(&[loads, "bearing.preload.force=7800"]), None, false, &Unwatched).unwrap();
+    assert_relative_eq!(force.load.force[2], 17_800.0);
+    let none = "shaft.loads=[{force=[0,0]}]";
+    let set = format!("bearing.preload.displacement={}", force.equilibria[0].displacement.translation[2]);
+    let held = compute_bearing(&case(&[none, &set]), None, false, &Unwatched).unwrap();
+    assert_relative_eq!(held.equilibria[0].holding_load[2], 17_800.0, max_relative = 1e-8);
+    let error = compute_bearing(&case(&["bearing.preload.displacement=1e-5"]), None, false, &Unwatched).unwrap_err();
+    assert!(
+        error.is_input() && error.to_string().starts_with("bearing.preload.displacement: found beside a load along z")
+    );
+    // the highest speed of the profile, either way, or another one
+    let profile = "speed.profile=[{time=0,rpm=0},{time=1,rpm=-10000},{time=2,rpm=500}]";
+    let fast = case(&[profile, "bearing.slip=0.1", "shaft.unbalance=1e-6"]);
+    let result = compute_bearing(&fast, None, true, &Unwatched).unwrap();
+    assert_relative_eq!(result.speed_rpm, -10_000.0, max_relative = 1e-12);
+    assert_relative_eq!(result.time_s, 1.0);
+    assert_eq!(result.over_speed.len(), 25);
+    let said = result.doubts.join("\n");
+    assert!(said.contains("bearing.slip does not count") && said.contains("shaft.unbalance does not count"), "{said}");
+    let slow = compute_bearing(&fast, Some(100.0), true, &Unwatched).unwrap();
+    assert_relative_eq!(slow.speed_rpm, 100.0, max_relative = 1e-12);
+    // a load that pushes the rings apart cannot be computed
+    let error = compute_bearing(&case(&["bearing.thrust=negative"]), None, true, &Unwatched).unwrap_err();
+    assert!(!error.is_input(), "{error}");
+}
