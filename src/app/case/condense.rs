@@ -5,6 +5,7 @@ use serde::{Deserialize, Serialize};
 
 use super::schema::{one_of, or_table, whole, words};
 use super::union::{Loose, exactly_one, read_as};
+use crate::fe::model::CentreTie;
 
 /// How the housing is condensed onto the ring.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -32,7 +33,7 @@ impl Default for Condense {
 }
 
 /// What a condensed housing is attached by.
-#[derive(Debug, Clone, Default, PartialEq, Eq, Serialize)]
+#[derive(Debug, Clone, Default, PartialEq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Interface {
     /// The ring's degrees of freedom.
@@ -42,24 +43,41 @@ pub enum Interface {
     Group(String),
     /// Nodes of the mesh by gmsh's tags, each with its displacements.
     Nodes(Vec<u64>),
+    /// Bores as one node each, with displacements and rotations.
+    Centres(Vec<Centre>),
+}
+
+/// The centre node of a bore.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Centre {
+    /// The group of the bore's nodes.
+    pub group: String,
+    /// Place of the node in the mesh's frame, in m.
+    pub point: [f64; 3],
+    /// How node and bore move with each other.
+    pub tie: CentreTie,
 }
 
 #[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
-#[schemars(extend("oneOf" = one_of(&["group", "nodes"])))]
+#[schemars(extend("oneOf" = one_of(&["group", "nodes", "centres"])))]
 struct InterfaceForm {
     /// The nodes of this group of the mesh, each with its displacements.
     group: Option<String>,
     /// Nodes of the mesh by gmsh's tags, each with its displacements.
     nodes: Option<Vec<u64>>,
+    /// Bores as one node each, with displacements and rotations: for rotor and multibody programs.
+    centres: Option<Vec<Centre>>,
 }
 
 read_as!(Interface, Loose<InterfaceForm>, or_table::<InterfaceForm>(vec![words(&["ring"])]), |form| {
-    const FORMS: &str = "\"ring\", { group = \"NAME\" } or { nodes = [TAGS] }";
+    const FORMS: &str = "\"ring\", { group = \"NAME\" }, { nodes = [TAGS] } or { centres = [...] }";
+    const ONE: &str = "one of `group`, `nodes`, `centres`";
     match form {
         Loose::Word(word) if word == "ring" => Ok(Self::Ring),
-        Loose::Table(InterfaceForm { group, nodes }) => {
-            exactly_one([group.map(Self::Group), nodes.map(Self::Nodes)], "one of `group`, `nodes`")
+        Loose::Table(InterfaceForm { group, nodes, centres }) => {
+            exactly_one([group.map(Self::Group), nodes.map(Self::Nodes), centres.map(Self::Centres)], ONE)
         }
         other => Err(other.mismatch(&["ring"], FORMS)),
     }

@@ -59,7 +59,7 @@ pub(in crate::app) use built_in_materials::built_in_like;
 pub use built_in_materials::{BUILT_IN_MATERIALS, BuiltInMaterial};
 pub(crate) use check::short;
 pub use check::{BrokenRule, Rule};
-pub use condense::{Condense, FixedInterfaceModes, Interface, InterfaceModes};
+pub use condense::{Centre, Condense, FixedInterfaceModes, Interface, InterfaceModes};
 pub use defect::{Defect, DentDefect, DentProfile, FlatDefect, MeasuredDefect, ProfileFile};
 pub use document::Source;
 pub use envelope_band::EnvelopeBand;

@@ -1,5 +1,6 @@
 //! The housing of a case, condensed on the interface that the case asks for.
 
+use super::centres::Centres;
 use super::housing::AssembledHousing;
 use super::places::{PlaceBodies, of_housing, of_rings};
 use super::ring::{Boundary, rings_and_tie};
@@ -74,6 +75,7 @@ impl CondensedHousing {
                 let nodes: Vec<usize> = group.nodes.iter().copied().filter(used).collect();
                 Boundary::Nodes(NodeInterface::new(&housing.model, &nodes))
             }
+            Interface::Centres(asked) => Boundary::Centres(Centres::of(&housing, asked)?),
             Interface::Nodes(tags) => Boundary::Nodes(NodeInterface::new(&housing.model, &nodes_of(&housing, tags)?)),
         };
         if let Boundary::Nodes(nodes) = &boundary
@@ -155,6 +157,7 @@ impl CondensedHousing {
     pub(crate) fn interface_labels(&self) -> Vec<DofLabel> {
         match &self.boundary {
             Boundary::Rings(bodies) => of_rings(&bodies.0),
+            Boundary::Centres(centres) => centres.labels(),
             Boundary::Nodes(_) => {
                 let labels = of_housing(&self.housing.model, None);
                 let driven = &self.boundary.partition().driven;
@@ -176,6 +179,7 @@ impl CondensedHousing {
                     None => motions,
                 },
             },
+            Boundary::Centres(centres) => RigidMotions { interface: centres.motions(about), housing: motions },
             Boundary::Nodes(nodes) => {
                 let driven = &nodes.partition.driven;
                 RigidMotions {
@@ -196,9 +200,10 @@ impl CondensedHousing {
     /// Matrices of the whole, nothing condensed.
     pub fn full_matrices(&self) -> CoupledMatrices {
         let AssembledHousing { model, matrices, .. } = &self.housing;
-        match self.boundary.rings() {
-            Some((rings, tie)) => CoupledMatrices::new(matrices, tie, rings),
-            None => CoupledMatrices::of_housing(matrices.clone(), model),
+        match &self.boundary {
+            Boundary::Rings(bodies) => CoupledMatrices::new(matrices, &bodies.1, &bodies.0),
+            Boundary::Centres(_) => CoupledMatrices::of_partition(matrices, self.boundary.partition()),
+            Boundary::Nodes(_) => CoupledMatrices::of_housing(matrices.clone(), model),
         }
     }
 }
@@ -249,11 +254,12 @@ pub(crate) fn basis_choice(case: &Case) -> BasisChoice {
 /// [`ComputeError::Input`].
 fn check_interior(housing: &AssembledHousing, boundary: &Boundary) -> Result<(), ComputeError> {
     let partition = boundary.partition();
-    if partition.driven.is_empty() || partition.interior.is_empty() {
+    if partition.tie.cols() == 0 || partition.interior.is_empty() {
         return Ok(()); // refused for this
     }
     let rotation = boundary.rings().and_then(|(_, tie)| tie.rotation());
-    match Mechanisms::find_in(&housing.mesh, &housing.model, &Bore::Held(&partition.driven, rotation))? {
+    let held: Vec<usize> = partition.driven.iter().copied().chain(partition.mean.dofs()).collect();
+    match Mechanisms::find_in(&housing.mesh, &housing.model, &Bore::Held(&held, rotation))? {
         Some(found) if found.total() > 0 => Err(ComputeError::input(
             format!(
                 "with the interface held, the housing can still move, so that it cannot be condensed: {}",

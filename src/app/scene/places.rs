@@ -155,12 +155,12 @@ impl Place {
 
     /// The row over the coordinates of housing and rings in full: what the tie drives moves with its ring.
     pub(crate) fn full(&self, boundary: &Boundary, matrices: &CoupledMatrices) -> Vec<f64> {
-        let rings = boundary.rings();
+        let drives = !matches!(boundary, Boundary::Nodes(_));
         let length = matrices.mass.rows();
-        let first = length - rings.map_or(0, |(rings, _)| rings.dof());
+        let first = length - if drives { boundary.partition().tie.cols() } else { 0 };
         let partition = boundary.partition();
         let of_housing = |&(dof, factor): &(usize, f64)| {
-            let driven = rings.and_then(|_| partition.driven.iter().position(|&at| at == dof));
+            let driven = partition.driven.iter().position(|&at| at == dof).filter(|_| drives);
             let Some(place) = driven else {
                 return vec![(dof, factor)];
             };

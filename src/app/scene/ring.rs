@@ -1,5 +1,6 @@
 //! The ring of a case: its section and supports, its tie to the bore, and the bore itself.
 
+use super::centres::Centres;
 use super::housing::{AssembledHousing, material};
 use crate::app::case::{self, Case, other_size, short};
 use crate::app::error::ComputeError;
@@ -157,6 +158,8 @@ pub enum Boundary {
     Rings(Box<(Rings, RingTie)>),
     /// Nodes of the mesh themselves.
     Nodes(NodeInterface),
+    /// Centre nodes of bores.
+    Centres(Centres),
 }
 
 impl Boundary {
@@ -165,6 +168,7 @@ impl Boundary {
         match self {
             Self::Rings(bodies) => bodies.1.partition(),
             Self::Nodes(nodes) => &nodes.partition,
+            Self::Centres(centres) => centres.partition(),
         }
     }
 
@@ -184,7 +188,7 @@ impl Boundary {
     pub(crate) fn rings(&self) -> Option<(&Rings, &RingTie)> {
         match self {
             Self::Rings(bodies) => Some((&bodies.0, &bodies.1)),
-            Self::Nodes(_) => None,
+            Self::Nodes(_) | Self::Centres(_) => None,
         }
     }
 }

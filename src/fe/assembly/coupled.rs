@@ -1,7 +1,7 @@
 //! A housing, rings, or the housing with rings in its bores in one system of sparse matrices, nothing condensed.
 
 use super::SystemMatrices;
-use crate::fe::model::{HousingModel, RingTie, Rings};
+use crate::fe::model::{HousingModel, HousingPartition, RingTie, Rings};
 use crate::numerics::linalg::{
     DenseMatrix, SparseMatrix, TripletBuilder, congruence, placed, sparse_times_dense, transpose_times_dense,
 };
@@ -35,20 +35,7 @@ impl CoupledMatrices {
         let partition = tie.partition();
         let housing_dof = matrices.stiffness.rows();
         let order = housing_dof + rings.dof();
-        let mut driven = vec![false; housing_dof];
-        let mut expand = TripletBuilder::new(housing_dof, order);
-        for &dof in &partition.driven {
-            driven[dof] = true;
-        }
-        for (column, entries) in partition.tie.outer_iterator().enumerate() {
-            for (row, &value) in entries.iter() {
-                expand.add(partition.driven[row], housing_dof + column, value);
-            }
-        }
-        for dof in (0..housing_dof).filter(|&dof| !driven[dof]) {
-            expand.add(dof, dof, 1.0);
-        }
-        let mut recovery = expand.build();
+        let mut recovery = recovery(housing_dof, partition);
         if let Some(rotation) = tie.rotation() {
             recovery = (rotation * &recovery).to_csc();
         }
@@ -61,6 +48,21 @@ impl CoupledMatrices {
             mass: with_rings(&matrices.mass, rings.mass()),
             free_dofs: partition.interior.iter().copied().chain(ring_dofs).collect(),
             motions: CoupledMotions { recovery, housing_dof, ring_dof: rings.dof() },
+        }
+    }
+
+    /// A housing whose partition drives some of its displacements, as a rigid centre node does. Coordinates that only follow, those of
+    /// nodes in the mean, have empty rows and are not free.
+    pub(crate) fn of_partition(matrices: &SystemMatrices, partition: &HousingPartition) -> Self {
+        let housing_dof = matrices.stiffness.rows();
+        let recovery = recovery(housing_dof, partition);
+        let follows = |coordinate: &usize| !partition.mean.coordinates.contains(coordinate);
+        let driving = (0..partition.tie.cols()).filter(follows).map(|coordinate| housing_dof + coordinate);
+        Self {
+            stiffness: congruence(&matrices.stiffness, &recovery),
+            mass: congruence(&matrices.mass, &recovery),
+            free_dofs: partition.interior.iter().copied().chain(driving).collect(),
+            motions: CoupledMotions { recovery, housing_dof, ring_dof: 0 },
         }
     }
 
@@ -94,6 +96,24 @@ impl CoupledMatrices {
             motions: CoupledMotions { recovery: TripletBuilder::new(0, order).build(), housing_dof: 0, ring_dof },
         }
     }
+}
+
+/// Housing displacements in the partition's axes from all coordinates, those of the interface last [housing dof x n].
+fn recovery(housing_dof: usize, partition: &HousingPartition) -> SparseMatrix {
+    let mut driven = vec![false; housing_dof];
+    let mut expand = TripletBuilder::new(housing_dof, housing_dof + partition.tie.cols());
+    for &dof in &partition.driven {
+        driven[dof] = true;
+    }
+    for (column, entries) in partition.tie.outer_iterator().enumerate() {
+        for (row, &value) in entries.iter() {
+            expand.add(partition.driven[row], housing_dof + column, value);
+        }
+    }
+    for dof in (0..housing_dof).filter(|&dof| !driven[dof]) {
+        expand.add(dof, dof, 1.0);
+    }
+    expand.build()
 }
 
 impl CoupledMotions {

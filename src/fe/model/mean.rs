@@ -18,6 +18,13 @@ impl Default for MeanTie {
 }
 
 impl MeanTie {
+    /// Degrees of freedom of the housing that the means are over.
+    pub(crate) fn dofs(&self) -> Vec<usize> {
+        let of_column = self.weights.outer_iterator().flat_map(|column| column.indices().to_vec());
+        let dofs: std::collections::BTreeSet<usize> = of_column.collect();
+        dofs.into_iter().collect()
+    }
+
     /// Whether there is no such coordinate.
     pub(crate) fn is_empty(&self) -> bool {
         self.coordinates.is_empty()

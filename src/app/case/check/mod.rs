@@ -77,8 +77,12 @@ impl Case {
                 name(seat.key("ring.tie.group"), &tie.group);
             }
         }
-        if let Interface::Group(group) = &self.condense.interface {
-            name("condense.interface.group".to_owned(), group);
+        match &self.condense.interface {
+            Interface::Group(group) => name("condense.interface.group".to_owned(), group),
+            Interface::Centres(centres) => centres.iter().enumerate().for_each(|(index, centre)| {
+                name(format!("condense.interface.centres[{index}].group"), &centre.group);
+            }),
+            Interface::Ring | Interface::Nodes(_) => {}
         }
         let pushes = self.frf.iter().flat_map(|frf| &frf.from).map(|push| &push.spot).enumerate();
         let pushes = pushes.map(|(index, spot)| (format!("frf.from[{index}].group"), spot));

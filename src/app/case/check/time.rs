@@ -182,6 +182,11 @@ pub(super) fn condense(case: &Case) -> Result<(), BrokenRule> {
         InterfaceModes::Count(count) => ABOVE_ZERO.check("condense.interface_modes", count as f64)?,
         InterfaceModes::UpToHz(limit) => ABOVE_ZERO.check("condense.interface_modes.up_to_hz", limit)?,
     }
+    if let Interface::Centres(centres) = &case.condense.interface {
+        not_empty("condense.interface.centres", centres.len(), "at least one bore")?;
+        let groups = centres.iter().map(|centre| centre.group.as_str());
+        each_once(groups, |index| format!("condense.interface.centres[{index}].group"))?;
+    }
     if let Interface::Nodes(nodes) = &case.condense.interface {
         not_empty("condense.interface.nodes", nodes.len(), "at least one node")?;
         let names: Vec<String> = nodes.iter().map(u64::to_string).collect();

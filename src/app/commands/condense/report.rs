@@ -8,6 +8,7 @@ use crate::app::case::{Case, Purpose};
 use crate::app::commands::parts::{self, HousingSize, signed_report};
 use crate::app::scene::tie_price::{BeamAndSolid, TiePrice};
 use crate::app::scene::{Boundary, ImportedHousing};
+use crate::fe::model::{CentreNode, CentreTie};
 use crate::fe::reduction::{BasisSize, Bound, Check, SizeErrors};
 use crate::report::{
     Abscissa, Axis, Block, Cell, Column, Curve, CurveStyle, Fact, Plot, Report, Section, Table, Verdict, significant,
@@ -98,6 +99,14 @@ fn what(result: &CondenseResult) -> Section {
                 format!("the nodes of the rings, through their ties: {}", nodes.collect::<Vec<_>>().join(", "))
             }
         },
+        Boundary::Centres(centres) => {
+            let node = |(group, node): &(String, CentreNode)| match node.tie {
+                CentreTie::Rigid => format!("of \"{group}\", rigid"),
+                CentreTie::Mean => format!("of \"{group}\", in the mean"),
+            };
+            let nodes: Vec<String> = centres.nodes.iter().map(node).collect();
+            format!("centre nodes {}", nodes.join("; "))
+        }
         Boundary::Nodes(nodes) => {
             let count = nodes.coordinates.iter().map(|at| at.0);
             let count = count.collect::<std::collections::BTreeSet<_>>().len();
