@@ -103,9 +103,9 @@ impl CentreNode {
         &self.partition
     }
 
-    /// Number of coordinates: 6, of a plane housing 3.
-    pub fn dof(&self) -> usize {
-        motions_of(self.dimension)
+    /// Which of [`CENTRE_COORDINATES`] the node has, in order: all, of a plane housing 0, 1 and 5.
+    pub fn coordinates(&self) -> &'static [usize] {
+        if self.dimension == 3 { &[0, 1, 2, 3, 4, 5] } else { &[0, 1, 5] }
     }
 
     /// Coordinates of the node in a rigid motion of the whole housing: `displacement` (m) of the mesh's origin and `rotation`
@@ -120,7 +120,7 @@ impl CentreNode {
     }
 }
 
-/// Names of a centre node's coordinates of a solid housing, in their order.
+/// Names of a centre node's coordinates, in their order.
 pub const CENTRE_COORDINATES: [&str; 6] = ["u_x", "u_y", "u_z", "theta_x", "theta_y", "theta_z"];
 
 fn motions_of(dimension: usize) -> usize {

@@ -206,6 +206,8 @@ fn static_and_fixed_interface_modes_are_those_of_the_nullspace() {
         let scene = Scene::new(dimension, held);
         let mean = scene.centre("left", LEFT, CentreTie::Mean);
         let other = scene.centre("right", RIGHT, CentreTie::Mean);
+        assert_eq!(mean.coordinates().last(), Some(&5));
+        assert_eq!(mean.coordinates().len(), mean.partition().tie.cols());
         let two = scene.joined(&[("left", mean.partition()), ("right", other.partition())]);
         for partition in [mean.partition(), &scene.both(), &two] {
             let expected = dense(&scene.matrices, partition);
