@@ -37,48 +37,33 @@ impl Centres {
         &self.partition
     }
 
-    /// Unit rigid motions of the whole housing at the nodes [coordinates x 3 or 6], about a point (m).
+    /// Unit rigid motions of the whole housing at the nodes, along and about axes through a point (m) [coordinates x 3 or 6].
     pub(super) fn motions(&self, about: [f64; 3]) -> DenseMatrix {
-        let in_space = self.nodes.iter().all(|(_, node)| node.dof() == 6);
-        let motion = |index: usize| -> Vec<f64> {
-            let (axis, turns) = if in_space { (index % 3, index >= 3) } else { ([0, 1, 2][index], index == 2) };
+        let kinds = self.nodes.first().map_or(&[][..], |(_, node)| node.coordinates());
+        let [x, y, z] = about;
+        // a turn about the point carries the mesh's origin by rotation x (0 - about)
+        let carried = [[0.0, z, -y], [-z, 0.0, x], [y, -x, 0.0]];
+        let motion = |&kind: &usize| -> Vec<f64> {
             let mut unit = [0.0; 3];
-            unit[axis] = 1.0;
-            let [x, y, z] = about;
-            let (displacement, rotation) = match (turns, axis) {
-                (false, _) => (unit, [0.0; 3]),
-                // rotation x (0 - about)
-                (true, 0) => ([0.0, z, -y], unit),
-                (true, 1) => ([-z, 0.0, x], unit),
-                (true, _) => ([y, -x, 0.0], unit),
-            };
+            unit[kind % 3] = 1.0;
+            let (displacement, rotation) = if kind < 3 { (unit, [0.0; 3]) } else { (carried[kind % 3], unit) };
             self.nodes.iter().flat_map(|(_, node)| node.rigid_motion(displacement, rotation)).collect()
         };
-        let motions: Vec<Vec<f64>> = (0..if in_space { 6 } else { 3 }).map(motion).collect();
+        let motions: Vec<Vec<f64>> = kinds.iter().map(motion).collect();
         DenseMatrix::from_fn(self.partition.tie.cols(), motions.len(), |row, column| motions[column][row])
     }
 
     /// Labels of the coordinates.
     pub(super) fn labels(&self) -> Vec<DofLabel> {
-        let of_node = |(place, (_, node)): (usize, &(String, CentreNode))| {
-            let directions: &[(DofDirection, usize)] = match node.dof() {
-                6 => &[
-                    (DofDirection::Along(0), 0),
-                    (DofDirection::Along(1), 1),
-                    (DofDirection::Along(2), 2),
-                    (DofDirection::About(0), 0),
-                    (DofDirection::About(1), 1),
-                    (DofDirection::About(2), 2),
-                ],
-                _ => &[(DofDirection::Along(0), 0), (DofDirection::Along(1), 1), (DofDirection::About(2), 2)],
-            };
-            let label = |&(direction, along): &(DofDirection, usize)| {
-                let mut axis = [0.0; 3];
-                axis[along] = 1.0;
-                DofLabel { body: DofBody::Centre, node: place as u64, direction, position: node.point, axis }
-            };
-            directions.iter().map(label).collect::<Vec<_>>()
+        let label = |place: usize, node: &CentreNode, kind: usize| {
+            let mut axis = [0.0; 3];
+            axis[kind % 3] = 1.0;
+            let direction = if kind < 3 { DofDirection::Along(kind) } else { DofDirection::About(kind - 3) };
+            DofLabel { body: DofBody::Centre, node: place as u64, direction, position: node.point, axis }
         };
-        self.nodes.iter().enumerate().flat_map(of_node).collect()
+        let nodes = self.nodes.iter().enumerate();
+        nodes
+            .flat_map(|(place, (_, node))| node.coordinates().iter().map(move |&kind| label(place, node, kind)))
+            .collect()
     }
 }
