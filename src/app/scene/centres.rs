@@ -4,7 +4,7 @@ use super::housing::AssembledHousing;
 use crate::app::case;
 use crate::app::error::ComputeError;
 use crate::fe::model::{CentreNode, HousingPartition};
-use crate::formats::{DofBody, DofDirection, DofLabel};
+use crate::formats::DofLabel;
 use crate::numerics::linalg::DenseMatrix;
 
 /// Centre nodes of bores, one after the other.
@@ -55,15 +55,10 @@ impl Centres {
 
     /// Labels of the coordinates.
     pub(super) fn labels(&self) -> Vec<DofLabel> {
-        let label = |place: usize, node: &CentreNode, kind: usize| {
-            let mut axis = [0.0; 3];
-            axis[kind % 3] = 1.0;
-            let direction = if kind < 3 { DofDirection::Along(kind) } else { DofDirection::About(kind - 3) };
-            DofLabel { body: DofBody::Centre, node: place as u64, direction, position: node.point, axis }
+        let of_node = |(place, (_, node)): (usize, &(String, CentreNode))| {
+            let kinds = node.coordinates().iter();
+            kinds.map(|&kind| DofLabel::centre(place as u64, kind, node.point)).collect::<Vec<_>>()
         };
-        let nodes = self.nodes.iter().enumerate();
-        nodes
-            .flat_map(|(place, (_, node))| node.coordinates().iter().map(move |&kind| label(place, node, kind)))
-            .collect()
+        self.nodes.iter().enumerate().flat_map(of_node).collect()
     }
 }
