@@ -18,6 +18,7 @@ mod report;
 mod report_browser;
 mod report_shapes;
 mod results_schema;
+mod several_bores;
 mod sweep;
 mod tube;
 mod validator;
