@@ -150,7 +150,7 @@ pub struct RecordLayout {
 
 impl RecordLayout {
     /// All columns, in the order in which they are stored.
-    pub fn columns(&self) -> impl Iterator<Item = Column> + use<> {
+    pub(crate) fn columns(&self) -> impl Iterator<Item = Column> + use<> {
         let in_space = self.in_space;
         [Column::Time, Column::ShaftX, Column::ShaftY]
             .into_iter()

@@ -67,7 +67,7 @@ impl AngleStiffness {
     }
 
     /// Coefficients of the Chebyshev polynomials over 2 x - 1, x the cosine, from T_0 on.
-    pub fn coefficients(&self) -> &[f64] {
+    pub(crate) fn coefficients(&self) -> &[f64] {
         &self.0
     }
 

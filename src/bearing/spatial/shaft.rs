@@ -132,7 +132,7 @@ pub(crate) struct Axis {
 }
 
 impl Axis {
-    pub fn new(shaft: &RingDisplacement) -> Self {
+    pub(crate) fn new(shaft: &RingDisplacement) -> Self {
         let g = shaft.tilt.map(|tilt| 0.5 * tilt);
         let square = g[0] * g[0] + g[1] * g[1];
         let h = 2.0 / (1.0 + square);
@@ -157,18 +157,18 @@ impl Axis {
     }
 
     /// How far a point of the axis moves by the tilt.
-    pub fn moved(&self, place: f64) -> Vector3<f64> {
+    pub(crate) fn moved(&self, place: f64) -> Vector3<f64> {
         place * self.change
     }
 
     /// Force at a place and moments, as loads on the shaft's five coordinates.
-    pub fn generalised(&self, place: f64, force: Vector3<f64>, moment: [f64; 2]) -> Five {
+    pub(crate) fn generalised(&self, place: f64, force: Vector3<f64>, moment: [f64; 2]) -> Five {
         let turning = [0, 1].map(|a| moment[a] + place * force.dot(&self.by[a]));
         Five::from([force.x, force.y, force.z, turning[0], turning[1]])
     }
 
     /// Derivatives of a bearing's five coordinates at a place by the shaft's.
-    pub fn follow(&self, place: f64) -> FiveByFive {
+    pub(crate) fn follow(&self, place: f64) -> FiveByFive {
         let mut follow = SMatrix::identity();
         for a in 0..2 {
             for row in 0..3 {
@@ -179,7 +179,7 @@ impl Axis {
     }
 
     /// Stiffness by a force whose lever turns with the shaft.
-    pub fn turning(&self, place: f64, force: Vector3<f64>) -> FiveByFive {
+    pub(crate) fn turning(&self, place: f64, force: Vector3<f64>) -> FiveByFive {
         let mut stiffness = SMatrix::zeros();
         for a in 0..2 {
             for b in 0..2 {

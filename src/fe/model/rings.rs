@@ -19,7 +19,7 @@ pub struct RingSeat {
 
 impl RingSeat {
     /// Its coordinates among those of all rings.
-    pub fn range(&self) -> Range<usize> {
+    pub(crate) fn range(&self) -> Range<usize> {
         self.first..self.first + self.ring.dof()
     }
 

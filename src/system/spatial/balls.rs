@@ -67,7 +67,7 @@ pub(super) struct BallGroup {
 
 impl BearingBalls {
     /// The balls of a bearing whose ring is `seat`, on the lowest `kept` modes.
-    pub fn new(own: &BearingInPlace, seat: &RingSeat, modes: &StructureModes, kept: usize) -> Self {
+    pub(crate) fn new(own: &BearingInPlace, seat: &RingSeat, modes: &StructureModes, kept: usize) -> Self {
         let law = own.bearing.law();
         let count = own.bearing.balls();
         let column = |f: &dyn Fn(usize) -> f64, rest: f64| {
@@ -105,7 +105,7 @@ impl BearingBalls {
     }
 
     /// Contact angles of the balls at a race that lies on this side of them, rad.
-    pub fn angles(&self, of: impl Fn(&BallGroup) -> &Felt, side: f64) -> impl Iterator<Item = f64> {
+    pub(crate) fn angles(&self, of: impl Fn(&BallGroup) -> &Felt, side: f64) -> impl Iterator<Item = f64> {
         (0..self.count).map(move |j| {
             let [r, z] = of(&self.groups[j / LANES]).normal.map(|component| side * component[j % LANES]);
             z.atan2(r)
@@ -113,7 +113,7 @@ impl BearingBalls {
     }
 
     /// What each ball has of something.
-    pub fn all(&self, of: impl Fn(&BallGroup) -> &Lanes) -> impl Iterator<Item = f64> {
+    pub(crate) fn all(&self, of: impl Fn(&BallGroup) -> &Lanes) -> impl Iterator<Item = f64> {
         (0..self.count).map(move |j| of(&self.groups[j / LANES])[j % LANES])
     }
 }

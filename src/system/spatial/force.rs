@@ -38,7 +38,7 @@ pub(super) struct InnerRing {
 impl InnerRing {
     /// At a place with an offset of the outer ring (m), for velocities of the shaft.
     #[inline(always)]
-    pub fn new(pose: &Pose, [place, offset]: [f64; 2], v: &[f64]) -> Self {
+    pub(crate) fn new(pose: &Pose, [place, offset]: [f64; 2], v: &[f64]) -> Self {
         let [arm, moved] = pose.arm(place);
         let turning = pose.angular_velocity([v[3], v[4]]);
         let velocity = Vector3::new(v[0], v[1], v[2]) + turning.cross(&arm);

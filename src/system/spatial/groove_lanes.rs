@@ -30,7 +30,7 @@ pub(super) struct Felt {
 }
 
 impl GrooveLaw {
-    pub fn new(contact: &GrooveContact, damping: f64) -> Self {
+    pub(crate) fn new(contact: &GrooveContact, damping: f64) -> Self {
         Self {
             stiffness: with_slopes(contact.stiffness.coefficients()),
             seat: contact.seat,
@@ -41,7 +41,7 @@ impl GrooveLaw {
 
     /// The elastic contact at vectors `[radial, axial]` (m), each ball `oversize` (m) too large.
     #[inline(always)]
-    pub fn felt(&self, d: [&Lanes; 2], oversize: &Lanes) -> Felt {
+    pub(crate) fn felt(&self, d: [&Lanes; 2], oversize: &Lanes) -> Felt {
         let [r, z] = d;
         // a ball on the groove's centre touches nothing, whatever its direction
         let distance = each(|l| {
@@ -85,7 +85,7 @@ impl GrooveLaw {
     }
 
     /// Elastic energy of one ball of these, J.
-    pub fn energy(&self, felt: &Felt, lane: usize) -> f64 {
+    pub(crate) fn energy(&self, felt: &Felt, lane: usize) -> f64 {
         // load = k delta^(3/2)
         0.4 * positive(felt.penetration[lane]) * felt.load[lane]
     }

@@ -23,7 +23,7 @@ pub(super) struct Pose {
 impl Pose {
     /// From x, y, z (m) and the tilts about x and y (rad).
     #[inline(always)]
-    pub fn new(coordinates: &[f64]) -> Self {
+    pub(crate) fn new(coordinates: &[f64]) -> Self {
         let &[x, y, z, a, b, ..] = coordinates else {
             return Self::new(&[0.0; 5]);
         };
@@ -47,7 +47,7 @@ impl Pose {
 
     /// The arm from the centre of mass to a place on the axis (m), turned, and its change by the tilt, without loss of digits.
     #[inline(always)]
-    pub fn arm(&self, place: f64) -> [Vector3<f64>; 2] {
+    pub(crate) fn arm(&self, place: f64) -> [Vector3<f64>; 2] {
         let axis = self.rotation.column(2);
         let h = 2.0 * self.factor;
         let moved = Vector3::new(axis[0], axis[1], -h * self.half_tilt.norm_squared()) * place;
@@ -56,14 +56,14 @@ impl Pose {
 
     /// Generalised forces on the tilts of a moment (N m) about the centre of mass.
     #[inline(always)]
-    pub fn on_tilts(&self, moment: Vector3<f64>) -> [f64; 2] {
+    pub(crate) fn on_tilts(&self, moment: Vector3<f64>) -> [f64; 2] {
         let [m, g] = [moment, self.half_tilt];
         [self.factor * (m.x - g.y * m.z), self.factor * (m.y + g.x * m.z)]
     }
 
     /// Angular velocity (rad/s) for rates of the tilts.
     #[inline(always)]
-    pub fn angular_velocity(&self, [a, b]: [f64; 2]) -> Vector3<f64> {
+    pub(crate) fn angular_velocity(&self, [a, b]: [f64; 2]) -> Vector3<f64> {
         let g = self.half_tilt;
         Vector3::new(a, b, g.x * b - g.y * a) * self.factor
     }

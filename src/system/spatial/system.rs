@@ -101,11 +101,6 @@ impl SpatialSystem {
         })
     }
 
-    /// Number of kept modes.
-    pub fn modes(&self) -> usize {
-        self.modes
-    }
-
     /// The shaft and its bearings.
     pub fn setup(&self) -> &SpatialSetup {
         &self.setup
