@@ -4,8 +4,9 @@ use super::analyze::warn;
 use super::report::ReportFiles;
 use super::results::Job;
 use super::{CliError, Outcome, typed};
-use crate::app::commands::bearing::compute::{shown_degrees, without_round_off};
+use crate::app::commands::bearing::compute::{shown_degrees, shown_displacement};
 use crate::app::commands::bearing::{BearingResult, bearing_report, compute_bearing};
+use crate::app::commands::parts::without_round_off;
 use crate::report::significant;
 use std::f64::consts::TAU;
 
@@ -40,8 +41,7 @@ fn summary(result: &BearingResult) -> String {
         digits(result.speed_rpm)
     )];
     let Some(taken) = result.equilibria.first() else { return lines.join("\n") };
-    let [x, y, z] = without_round_off(taken.displacement.translation).map(|part| digits(1e6 * part));
-    let [a, b] = without_round_off(taken.displacement.tilt).map(|part| digits(1e3 * part));
+    let [x, y, z, a, b] = shown_displacement(&taken.displacement).map(digits);
     lines.push(format!("at rest: ({x}, {y}, {z}) \u{b5}m, tilt ({a}, {b}) mrad"));
     let holding = result.holding_load(taken);
     if holding.iter().any(|load| load.abs() > 0.0) {

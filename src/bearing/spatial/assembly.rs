@@ -269,8 +269,7 @@ impl SpatialBearing {
         Ok(BallState {
             azimuth,
             load: contacts.map(|contact| contact.load),
-            contact_angle: contacts
-                .map(|contact| (contact.load > 0.0).then(|| contact.direction.y.atan2(contact.direction.x))),
+            contact_angle: contacts.map(|contact| contact.force_angle()),
             penetration: contacts.map(|contact| contact.penetration.max(0.0)),
             patch: [patch(Race::Inner, 0)?, patch(Race::Outer, 1)?],
             orbital_speed: forces.speeds.orbit,

@@ -143,6 +143,15 @@ pub(crate) struct GrooveState {
     pub distance: f64,
 }
 
+impl GrooveState {
+    /// Contact angle, the direction of the contact's force, rad; `None` without contact. The line of centres differs from it by
+    /// `(2/5) (delta / l) k' / k`, 2e-4 rad in usual bearings: the race's curvature changes across the patch.
+    pub(crate) fn force_angle(&self) -> Option<f64> {
+        let force = self.gradient * self.gradient.dot(&self.direction).signum();
+        (self.load > 0.0).then(|| force.y.atan2(force.x))
+    }
+}
+
 impl GrooveContact {
     /// The contact at a vector `d`, m.
     #[inline]

@@ -28,7 +28,7 @@ pub use assembly::{BallState, BearingCondition, BearingState, SpatialBearing};
 pub use ball::RaceControl;
 #[cfg(test)]
 pub(crate) use contact::AngleStiffness;
-pub(crate) use contact::{GrooveContact, GrooveState};
+pub(crate) use contact::GrooveContact;
 pub use equilibrium::ShaftEquilibrium;
 pub use groove::Thrust;
 pub(crate) use ring::InnerFrame;

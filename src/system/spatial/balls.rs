@@ -107,7 +107,10 @@ impl BearingBalls {
     /// Contact angles of the balls at a race that lies on this side of them, rad.
     pub(crate) fn angles(&self, of: impl Fn(&BallGroup) -> &Felt, side: f64) -> impl Iterator<Item = f64> {
         (0..self.count).map(move |j| {
-            let [r, z] = of(&self.groups[j / LANES]).normal.map(|component| side * component[j % LANES]);
+            let felt = of(&self.groups[j / LANES]);
+            let touches = felt.load[j % LANES] > 0.0;
+            let along = if touches { felt.gradient } else { felt.normal };
+            let [r, z] = along.map(|component| side * component[j % LANES]);
             z.atan2(r)
         })
     }

@@ -400,10 +400,7 @@ impl Potential for Problem<'_> {
             gradient[first] -= law.mass * square * (law.grooves.outer_centres + u.x) + weight;
             gradient[first + 1] -= law.mass * gravity[2];
             hessian[(first, first)] -= law.mass * square;
-            let angle = |state: &crate::bearing::spatial::GrooveState| {
-                (state.load > 0.0).then(|| state.direction.y.atan2(state.direction.x))
-            };
-            contacts.push(([inner.load, outer.load], [angle(&inner), angle(&outer)]));
+            contacts.push(([inner.load, outer.load], [inner.force_angle(), outer.force_angle()]));
         }
         let moved = DVector::from_fn(2 * count, |k, _| z[SHAFT + OF_BALL * (k / 2) + 2 + k % 2] - self.weight[k]);
         let held = &self.stiffness * moved;

@@ -1,11 +1,12 @@
 //! `plummer bearing`: where the shaft rests, and what becomes of it with load, speed and preload.
 
 use crate::app::case::{Case, Preload};
+use crate::app::commands::parts::without_round_off;
 use crate::app::error::ComputeError;
 use crate::app::scene::spatial::SpatialScene;
 use crate::bearing::BearingError;
 use crate::bearing::kinematics::{BallRow, DefectOrders};
-use crate::bearing::spatial::{BallState, ShaftEquilibrium, ShaftLoad, Thrust};
+use crate::bearing::spatial::{BallState, RingDisplacement, ShaftEquilibrium, ShaftLoad, Thrust};
 use crate::numerics::Watch;
 use schemars::JsonSchema;
 use serde::Serialize;
@@ -136,10 +137,10 @@ pub fn compute_bearing(
     Ok(result)
 }
 
-/// Values beside which some are nothing but round-off, those as zero.
-pub(crate) fn without_round_off<const N: usize>(values: [f64; N]) -> [f64; N] {
-    let largest = values.iter().fold(0.0, |largest: f64, value| largest.max(value.abs()));
-    values.map(|value| if value.abs() < 1e-9 * largest { 0.0 } else { value })
+/// A displacement in um and mrad, as zero what is nothing but round-off beside the largest.
+pub(crate) fn shown_displacement(displacement: &RingDisplacement) -> [f64; 5] {
+    let ([x, y, z], [a, b]) = (displacement.translation, displacement.tilt);
+    without_round_off([1e6 * x, 1e6 * y, 1e6 * z, 1e3 * a, 1e3 * b])
 }
 
 /// An angle in degrees, as zero where it is nothing but round-off.

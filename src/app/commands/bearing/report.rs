@@ -1,6 +1,6 @@
 //! The report of `plummer bearing`.
 
-use super::compute::{BearingResult, CurvePoint, shown_degrees, without_round_off};
+use super::compute::{BearingResult, CurvePoint, shown_degrees, shown_displacement};
 use crate::app::case::{Case, Purpose};
 use crate::app::commands::parts::{self, signed_report};
 use crate::bearing::spatial::{BallState, BearingState, ShaftEquilibrium};
@@ -90,15 +90,13 @@ fn displacement_table(result: &BearingResult, taken: &ShaftEquilibrium) -> Table
         Column::number("Load that holds it", ""),
         Column::text("Unit"),
     ];
-    let [x, y, z] = without_round_off(taken.displacement.translation);
-    let [a, b] = without_round_off(taken.displacement.tilt);
     let holding = result.holding_load(taken);
-    let rows = [x, y, z, a, b].into_iter().enumerate().map(|(index, value)| {
+    let rows = shown_displacement(&taken.displacement).into_iter().enumerate().map(|(index, value)| {
         let length = index < 3;
-        let (factor, unit, load) = if length { (1e6, "\u{b5}m", "N") } else { (1e3, "mrad", "N m") };
+        let (unit, load) = if length { ("\u{b5}m", "N") } else { ("mrad", "N m") };
         let held = holding[index];
         let holds = if held.abs() > 0.0 { Cell::number(held, 5) } else { Cell::text("none") };
-        [Cell::text(COORDINATES[index]), Cell::number(factor * value, 5), Cell::text(unit), holds, Cell::text(load)]
+        [Cell::text(COORDINATES[index]), Cell::number(value, 5), Cell::text(unit), holds, Cell::text(load)]
     });
     Table::new("Displacement of the inner ring against the outer ring", columns).rows(rows).footnote(format!(
         "The force out of balance is {} N after {} steps.",
@@ -142,10 +140,9 @@ fn equilibria_table(equilibria: &[ShaftEquilibrium]) -> Table {
             (0, loose) => format!("stable, {} held by nothing", counted(loose, "direction")),
             (down, _) => format!("saddle, {} down", counted(down, "direction")),
         };
-        let lengths = without_round_off(rest.displacement.translation).map(|part| Cell::number(1e6 * part, 4));
-        let tilts = without_round_off(rest.displacement.tilt).map(|part| Cell::number(1e3 * part, 4));
+        let moved = shown_displacement(&rest.displacement).map(|part| Cell::number(part, 4));
         let which = Cell::text(if number == 0 { "taken" } else { "other" });
-        [which].into_iter().chain(lengths).chain(tilts).chain([Cell::text(kind)]).collect::<Vec<_>>()
+        [which].into_iter().chain(moved).chain([Cell::text(kind)]).collect::<Vec<_>>()
     });
     Table::new("Equilibria that were found", columns).rows(rows)
 }

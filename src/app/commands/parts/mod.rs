@@ -13,7 +13,7 @@ pub(crate) use bearing_table::bearing_table;
 pub(crate) use bearing_words::{NO_FAULT, bearing_fact, faults, not_shown};
 pub(crate) use case_words::{HousingSize, inputs, with_details, with_entries};
 pub(crate) use drawing::draw;
-pub(crate) use statics_report::statics_section;
+pub(crate) use statics_report::{statics_section, without_round_off};
 pub use summary::{CheckSummary, SuperelementSummary};
 pub use tables::ExpectedMode;
 pub(crate) use tables::{assumptions, expected_table, mode_table, model_facts, signed_report};

@@ -46,7 +46,7 @@ fn degrees(angle: f64) -> f64 {
 }
 
 /// Values beside which some are nothing but round-off, those as zero.
-fn without_round_off<const N: usize>(values: [f64; N]) -> [f64; N] {
+pub(crate) fn without_round_off<const N: usize>(values: [f64; N]) -> [f64; N] {
     let largest = values.iter().fold(0.0, |largest: f64, value| largest.max(value.abs()));
     values.map(|value| if value.abs() < 1e-9 * largest { 0.0 } else { value })
 }
