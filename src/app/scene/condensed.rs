@@ -223,7 +223,6 @@ fn nodes_of(housing: &AssembledHousing, tags: &[u64]) -> Result<Vec<usize>, Comp
     tags.iter().enumerate().map(found).collect()
 }
 
-/// The basis that a case asks for.
 /// Highest frequency of which a mesh tells something, Hz. A node alone vibrates as in a wave of two to three nodes, the shortest there
 /// is; at half of its frequency a wave has four to six, and 5 to 10 % of all modes lie below.
 fn highest_hz(matrices: &SystemMatrices) -> f64 {
@@ -235,6 +234,7 @@ fn highest_hz(matrices: &SystemMatrices) -> f64 {
     middle.map_or(f64::INFINITY, |square| 0.5 * square.sqrt() / TAU)
 }
 
+/// The basis that a case asks for.
 pub(crate) fn basis_choice(case: &Case) -> BasisChoice {
     BasisChoice {
         size: match case.condense.fixed_interface_modes {

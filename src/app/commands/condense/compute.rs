@@ -2,10 +2,11 @@
 
 use crate::app::case::{Case, InterfaceModes};
 use crate::app::error::ComputeError;
-use crate::app::scene::tie_price::{TIE_PRICE_MODES, TiePrice, tie_price};
+use crate::app::scene::tie_price::{BorePrice, TIE_PRICE_MODES, TiePrice, bore_price, tie_price};
 use crate::app::scene::{AssembledHousing, Boundary, CondensedHousing, doubts};
 use crate::fe::assembly::SystemMatrices;
 use crate::fe::modal::{Bore, FullModes, Mechanisms, ModeRange};
+use crate::fe::model::CentreTie;
 use crate::fe::reduction::{
     CharacteristicModes, Check, CraigBampton, ErrorEstimate, InterfaceReduction, InterfaceSize, LostFlexibility,
     SizeErrors, Superelement, check_craig_bampton, size_study,
@@ -100,6 +101,8 @@ pub struct CondenseResult {
     pub full: Option<FullComparison>,
     /// What the ring's rigid sections change, if the full model was asked for and a ring is tied.
     pub tie_price: Option<TiePrice>,
+    /// What rigid centre nodes change, if the full model was asked for and there are any.
+    pub bore_price: Option<Vec<BorePrice>>,
     /// What of the model may be meant otherwise, a sentence each.
     pub doubts: Vec<String>,
 }
@@ -145,7 +148,7 @@ pub fn compute_condense(
     let mut checks = check_craig_bampton(&stage.condensed, reduction, &matrices, &rigid, band_hz)?;
     name_mechanisms(&mut checks, &stage.housing, &stage.boundary)?;
     checks.push(estimated_error(&estimate, case.target()));
-    let (mut full, mut price) = (None, None);
+    let (mut full, mut price, mut bores) = (None, None, None);
     if comparison == Comparison::Full {
         watch.stage("full model");
         let mut found = compare(&stage, &estimate, watch)?;
@@ -167,6 +170,11 @@ pub fn compute_condense(
         if stage.boundary.rings().is_some() {
             price = Some(tie_price(case, &stage.housing, TIE_PRICE_MODES, watch)?);
         }
+        if let Boundary::Centres(centres) = &stage.boundary
+            && centres.nodes.iter().any(|(_, node)| node.tie == CentreTie::Rigid)
+        {
+            bores = Some(bore_price(&stage, watch)?);
+        }
     }
     drop(matrices);
     let AssembledHousing { mesh, model, .. } = &stage.housing;
@@ -178,6 +186,7 @@ pub fn compute_condense(
         checks,
         full,
         tie_price: price,
+        bore_price: bores,
     })
 }
 

@@ -6,7 +6,7 @@ use super::compute::{CondenseResult, FullComparison, ReducedInterface};
 use super::summary::hz;
 use crate::app::case::{Case, Purpose};
 use crate::app::commands::parts::{self, HousingSize, signed_report};
-use crate::app::scene::tie_price::{BeamAndSolid, TiePrice};
+use crate::app::scene::tie_price::{BeamAndSolid, BorePrice, TiePrice};
 use crate::app::scene::{Boundary, ImportedHousing};
 use crate::fe::model::{CentreNode, CentreTie};
 use crate::fe::reduction::{BasisSize, Bound, Check, SizeErrors};
@@ -39,6 +39,7 @@ pub(crate) fn condense_report(case: &Case, result: &CondenseResult, command: &st
     let sizes = result.full.as_ref().and_then(|full| error_by_size(full, interface_dof, case.target()));
     report.sections.extend(sizes);
     report.sections.extend(result.tie_price.as_ref().map(tie));
+    report.sections.extend(result.bore_price.as_deref().map(rigid_bores));
     report.warnings.extend_from_slice(&result.doubts);
     report
 }
@@ -256,6 +257,29 @@ fn tie(price: &TiePrice) -> Section {
         .table(table("The ring alone: what the beams themselves cost", &found.ring_alone));
     section.blocks.extend(found.notes.iter().cloned().map(Block::Paragraph));
     section
+}
+
+/// What rigid bores cost.
+fn rigid_bores(price: &[BorePrice]) -> Section {
+    let columns = [
+        Column::number("Mode", ""),
+        Column::number("Rigid bores", "Hz"),
+        Column::number("Bores as they are", "Hz"),
+        Column::number("Difference", "%"),
+        Column::number("MAC", ""),
+    ];
+    let rows = price.iter().map(|mode| {
+        [
+            Cell::text((mode.mode + 1).to_string()),
+            Cell::number(mode.rigid_hz, 6),
+            Cell::number_or(mode.free_hz, 6, "none"),
+            Cell::number_or(mode.relative_difference.map(|x| 100.0 * x), 3, "none"),
+            Cell::number_or(mode.mac, 3, "none"),
+        ]
+    });
+    Section::new("The price of rigid bores")
+        .paragraph("A rigid centre node keeps the form of its bore. Here are the frequencies of the housing with its centre nodes, nothing on them and nothing condensed, and of the same housing without them.")
+        .table(Table::new("Housing with rigid bores", columns).rows(rows))
 }
 
 /// Facts, the modes kept, and what each frequency rises by.

@@ -3,7 +3,7 @@
 use super::{CondenseResult, ReducedInterface};
 use crate::app::commands::parts::CheckSummary;
 use crate::app::scene::ImportedHousing;
-use crate::app::scene::tie_price::TiePrice;
+use crate::app::scene::tie_price::{BorePrice, TiePrice};
 use crate::fe::reduction::{LostFlexibility, SizeErrors};
 use schemars::JsonSchema;
 use serde::Serialize;
@@ -51,6 +51,8 @@ pub struct CondenseSummary<'a> {
     pub error_by_size: Option<&'a [SizeErrors]>,
     /// What the ring's rigid sections change.
     pub tie_price: Option<&'a TiePrice>,
+    /// What rigid centre nodes change.
+    pub bore_price: Option<&'a [BorePrice]>,
     /// What of the model may be meant otherwise, a sentence each.
     pub warnings: &'a [String],
 }
@@ -134,6 +136,7 @@ impl CondenseResult {
             effectivity: full.and_then(|full| full.effectivity),
             error_by_size: full.map(|full| full.sizes.as_slice()),
             tie_price: self.tie_price.as_ref(),
+            bore_price: self.bore_price.as_deref(),
             warnings: &self.doubts,
         }
     }
