@@ -1,11 +1,11 @@
 //! The coupled system in modal coordinates: kept modes of the structure, shaft, balls.
 
 use super::balls::Balls;
-use super::energy::Powers;
 use super::inner::InnerRace;
+use super::powers::Powers;
 use super::race::{Damage, RaceContact, RaceForce};
 use super::raceway::RacewayTable;
-use super::recorder::{RecordLayout, RunRecord};
+use super::record::{RecordLayout, RunRecord};
 use super::residual::{Coupling, ResidualFlexibility};
 use super::simulated::Simulated;
 use super::{BallsInertia, BearingSetup, Equilibrium, Formulation, Structure, StructureModes, SystemError};

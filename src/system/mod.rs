@@ -14,8 +14,10 @@ mod error;
 mod force;
 mod inner;
 mod loaded;
+mod powers;
 mod race;
 mod raceway;
+mod record;
 mod recorder;
 mod residual;
 mod resting;
@@ -27,11 +29,13 @@ mod turning;
 
 pub use bearing_setup::{BallsInertia, BearingSetup, FlatOnBall, Formulation, LoadProfile, Shaft};
 pub use coupled::{CoupledSystem, ModeSelection};
-pub use energy::{EnergyBalance, EnergyMeter, Powers};
+pub use energy::{EnergyBalance, EnergyMeter};
 pub use equilibrium::{BallLoad, Equilibrium, StaticCondition};
 pub use error::SystemError;
 pub use loaded::{LoadedMode, LoadedModes, LoadedPass, LoadedPoint, LoadedShapes};
-pub use recorder::{Column, RecordLayout, Recorder, RunRecord};
+pub use powers::Powers;
+pub use record::{Column, RecordLayout, RunRecord};
+pub use recorder::Recorder;
 pub use simulated::Simulated;
 pub use spatial::{
     BearingInPlace, SpatialBallLoad, SpatialCondition, SpatialEquilibrium, SpatialLoad, SpatialSetup, SpatialShaft,

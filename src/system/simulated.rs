@@ -1,7 +1,7 @@
 //! What the record and the energy balance of a run ask of a system.
 
-use super::energy::Powers;
-use super::recorder::{RecordLayout, RunRecord};
+use super::powers::Powers;
+use super::record::{RecordLayout, RunRecord};
 use crate::numerics::ode::{Instant, SecondOrderSystem};
 
 /// A system that a run records.

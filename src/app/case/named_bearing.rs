@@ -32,17 +32,23 @@ pub(super) fn named_or_sections() -> Json {
 
 /// Writes a name in the place of the table as a table with a name, so that `--set bearing.KEY` finds one.
 pub(super) fn as_table(root: &mut Node) {
-    each_seat(root).into_iter().for_each(|(_, seat)| seat_as_table(seat));
+    let to_table = |_, seat: &mut Node| {
+        seat_as_table(seat);
+        Ok(())
+    };
+    // a form is no fault
+    let _ = each_seat(root, to_table);
 }
 
-/// The items of `bearings`, which have `bearing` and `ring`; without them the case itself.
-fn each_seat(root: &mut Node) -> Vec<(Option<usize>, &mut Node)> {
-    if !matches!(&root.value, Value::Table(keys) if keys.contains_key("bearings")) {
-        return vec![(None, root)];
-    }
-    let Value::Table(keys) = &mut root.value else { return Vec::new() };
-    let Some(Value::List(items)) = keys.get_mut("bearings").map(|list| &mut list.value) else { return Vec::new() };
-    items.iter_mut().enumerate().map(|(index, item)| (Some(index), item)).collect()
+/// Hands out the case itself, which has `bearing` and `ring`, and then the items of `bearings`, which have them too.
+fn each_seat(
+    root: &mut Node,
+    mut take: impl FnMut(Option<usize>, &mut Node) -> Result<(), Fault>,
+) -> Result<(), Fault> {
+    take(None, root)?;
+    let Value::Table(keys) = &mut root.value else { return Ok(()) };
+    let Some(Value::List(items)) = keys.get_mut("bearings").map(|list| &mut list.value) else { return Ok(()) };
+    items.iter_mut().enumerate().try_for_each(|(index, item)| take(Some(index), item))
 }
 
 fn seat_as_table(seat: &mut Node) {
@@ -59,7 +65,7 @@ fn seat_as_table(seat: &mut Node) {
 /// # Errors
 /// A [`Fault`] for a name that the catalogue does not have.
 pub(super) fn fill(root: &mut Node) -> Result<(), Fault> {
-    each_seat(root).into_iter().try_for_each(|(index, seat)| {
+    each_seat(root, |index, seat| {
         fill_seat(seat).map_err(|fault| match index {
             Some(index) => fault.under(Step::Index(index)).under(Step::Key("bearings".to_owned())),
             None => fault,

@@ -3,9 +3,9 @@
 //! Contacts of balls and races under the load at rest, against what Hertz theory and bearing steel allow.
 
 use super::bearing::race_contacts;
-use super::housing::{description, read_mesh};
+use super::housing::{description, frame, read_mesh};
 use super::plausible::STATIC_RATING;
-use super::ring::{BoreExtent, frame, layer, metres};
+use super::ring::{BoreExtent, layer, metres};
 use super::{deck, fit, plausible};
 use crate::app::case;
 use crate::app::case::Case;

@@ -1,6 +1,5 @@
 //! Mesh to matrices of a housing, as the case asks for them, and which mesh files these are, by their content.
 
-use super::ring::frame;
 use crate::app::case::{self, Case, Hold, Housing, Interface, IsotropicMaterial, Rule};
 use crate::app::error::ComputeError;
 use crate::fe::assembly::SystemMatrices;
@@ -80,6 +79,20 @@ pub(crate) fn description(case: &Case, housing: &case::Housing) -> Result<Housin
         attached,
         attached_nodes,
     })
+}
+
+/// Where a ring sits; the mesh's own frame without a tie.
+///
+/// # Errors
+/// [`ComputeError::Input`] for an angle 0 along the axis.
+pub(super) fn frame(seat: &case::Seat<'_>) -> Result<RingFrame, ComputeError> {
+    match &seat.ring.tie {
+        None => Ok(RingFrame::default()),
+        Some(tie) => RingFrame::new(tie.centre, tie.axis, tie.zero_deg).ok_or_else(|| {
+            let key = seat.key("ring.tie");
+            ComputeError::wrong(format!("{key}: `zero_deg` lies along `axis`: expected a direction across it"))
+        }),
+    }
 }
 
 /// An isotropic material of the case, checked.

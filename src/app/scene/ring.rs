@@ -1,7 +1,7 @@
 //! The ring of a case: its section and supports, its tie to the bore, and the bore itself.
 
 use super::centres::Centres;
-use super::housing::{AssembledHousing, material};
+use super::housing::{AssembledHousing, frame, material};
 use crate::app::case::{self, Case, other_size, short};
 use crate::app::error::ComputeError;
 use crate::bearing::catalogue::CatalogueBearing;
@@ -45,20 +45,6 @@ pub(crate) fn rings_and_tie<'c>(
         refuse_outside(case, seat, &format!("the bore \"{}\"", bore.group), extent.radii)?;
     }
     Ok((rings, Some(tie)))
-}
-
-/// Where a ring sits; the mesh's own frame without a tie.
-///
-/// # Errors
-/// [`ComputeError::Input`] for an angle 0 along the axis.
-pub(super) fn frame(seat: &case::Seat<'_>) -> Result<RingFrame, ComputeError> {
-    match &seat.ring.tie {
-        None => Ok(RingFrame::default()),
-        Some(tie) => RingFrame::new(tie.centre, tie.axis, tie.zero_deg).ok_or_else(|| {
-            let key = seat.key("ring.tie");
-            ComputeError::wrong(format!("{key}: `zero_deg` lies along `axis`: expected a direction across it"))
-        }),
-    }
 }
 
 /// A section of a ring as it is asked for.

@@ -263,7 +263,12 @@ impl SpatialBearing {
         let contacts = [forces.inner, forces.outer];
         let patch = |race: Race, index: usize| {
             let contact = &contacts[index];
-            let hertz = hertz_at(&self.geometry, race, contact.direction.x.clamp(0.0, 1.0), self.moduli[index])?;
+            let hertz = hertz_at(
+                &self.geometry,
+                race,
+                contact.force_angle().map_or(1.0, f64::cos).max(0.0),
+                self.moduli[index],
+            )?;
             Ok(hertz.patch(contact.load))
         };
         Ok(BallState {

@@ -15,10 +15,10 @@
 mod power;
 mod stored;
 
+use super::powers::Powers;
 use super::simulated::Simulated;
 use crate::numerics::ode::{Instant, Observer, Snapshot, SnapshotError, SnapshotReader, State};
 use power::Integral;
-pub use power::Powers;
 use schemars::JsonSchema;
 use serde::Serialize;
 

@@ -3,25 +3,13 @@
 //! Integrals of functions at equal intervals as they come: Gregory's formula.
 
 use super::super::coupled::CoupledSystem;
+use super::super::powers::{FLOWS, Powers};
 use super::super::race::RaceEnergy;
 use crate::bearing::RotationState;
 use crate::numerics::lanes;
-use crate::numerics::lanes::{LANES, Lanes};
+use crate::numerics::lanes::LANES;
 use crate::numerics::ode::{Instant, Snapshot, SnapshotError, SnapshotReader};
 use std::f64::consts::TAU;
-
-/// Powers at an instant, and what else has to be summed up.
-#[derive(Debug, Clone)]
-pub struct Powers {
-    /// As [`FLOWS`] counts them, W; that of contact damping without what the static residual's displacements
-    /// take from it.
-    pub(in crate::system) flows: [f64; FLOWS],
-    /// What damping adds to the outer force of each ball, N, and the static residual's displacement of the race there, m.
-    pub(in crate::system) yielding: Vec<[f64; 2]>,
-    /// Room for the modes.
-    pub(in crate::system) velocities: Vec<Lanes>,
-    pub(in crate::system) row: Vec<Lanes>,
-}
 
 /// How everything turns, and the velocity of the shaft's centre, m/s.
 #[derive(Clone, Copy)]
@@ -32,12 +20,6 @@ struct Motion {
 }
 
 impl Powers {
-    /// Room for the powers of a system with so many modes and balls.
-    pub(super) fn new(modes: usize, balls: usize) -> Self {
-        let groups = lanes::column(modes, 0.0);
-        Self { flows: [0.0; FLOWS], yielding: vec![[0.0; 2]; balls], velocities: groups.clone(), row: groups }
-    }
-
     /// Finds them at a state at which the force was evaluated last.
     pub(in crate::system) fn find(&mut self, system: &CoupledSystem, now: &Instant<'_>) {
         let modes = system.modes;
@@ -151,9 +133,6 @@ impl CoupledSystem {
         }
     }
 }
-
-/// Loads, rotation, modal damping, contact damping, blending.
-pub(in crate::system) const FLOWS: usize = 5;
 
 /// Values at either end that the corrections take.
 const ENDS: usize = 4;

@@ -6,7 +6,8 @@
 use super::balls::BearingBalls;
 use super::force::{InnerRing, unbalance_force};
 use super::pose::Pose;
-use super::system::{SHAFT, SpatialSystem};
+use super::setup::SHAFT;
+use super::system::SpatialSystem;
 use crate::bearing::RotationState;
 use crate::numerics::lanes::{self, LANES, Lanes};
 use crate::numerics::ode::Instant;

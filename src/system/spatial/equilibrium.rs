@@ -6,8 +6,7 @@
 //! while the search runs, and found again until it stays.
 
 use super::pose::Pose;
-use super::setup::SpatialSetup;
-use super::system::SHAFT;
+use super::setup::{SHAFT, SpatialSetup};
 use crate::bearing::spatial::{Axis, InnerFrame, MountedBearing, RigidShaft, RingDisplacement, ShaftLoad};
 use crate::numerics::linalg::DenseMatrix;
 use crate::system::equilibrium::{Evaluation, Found, HELD, Potential, Search};

@@ -10,9 +10,11 @@
 
 use super::balls::{BallGroup, BearingBalls};
 use super::pose::Pose;
-use super::system::{SHAFT, SpatialSystem, Work};
+use super::setup::SHAFT;
+use super::system::{SpatialSystem, Work};
 use crate::bearing::RotationState;
 use crate::numerics::lanes::{self, LANES, Lanes, each, positive, total};
+use crate::numerics::ode::{Divergence, LinearCoordinate, SecondOrderSystem, all_finite};
 use crate::system::raceway::reduced_turn;
 use crate::system::turning::directions;
 use multiversion::multiversion;
@@ -44,6 +46,56 @@ impl InnerRing {
         let velocity = Vector3::new(v[0], v[1], v[2]) + turning.cross(&arm);
         let centre = pose.centre + moved - Vector3::new(0.0, 0.0, offset);
         Self { centre, rotation: pose.rotation, velocity, turning, arm }
+    }
+}
+
+impl SecondOrderSystem for SpatialSystem {
+    fn linear(&self) -> &[LinearCoordinate] {
+        &self.linear
+    }
+
+    fn force_into(&mut self, t: f64, y: &[f64], v: &[f64], g: &mut [f64]) {
+        evaluate(self, t, y, v, g);
+    }
+
+    fn next_change(&self, t: f64) -> f64 {
+        let loads = self.setup.shaft.loads.iter().map(|load| load.profile.next_knot(t));
+        let cages = self.setup.bearings.iter().map(|bearing| bearing.cage.rotation.next_knot(t));
+        loads.chain(cages).fold(f64::INFINITY, f64::min)
+    }
+
+    fn check(&self, y: &[f64], v: &[f64]) -> Result<(), Divergence> {
+        if !(all_finite(y) && all_finite(v)) {
+            return Err(Divergence::NotFinite);
+        }
+        // beyond half a ball's radius neither Hertz theory nor the geometry holds
+        let balls = self.setup.bearings.iter().map(|own| 0.5 * own.bearing.geometry().ball_radius());
+        let limit = balls.fold(f64::INFINITY, f64::min);
+        let tilt = 0.1;
+        for (place, (what, limit, unit)) in [
+            ("shaft displacement x", limit, "m"),
+            ("shaft displacement y", limit, "m"),
+            ("shaft displacement z", limit, "m"),
+            ("tilt of the shaft about x", tilt, "rad"),
+            ("tilt of the shaft about y", tilt, "rad"),
+        ]
+        .into_iter()
+        .enumerate()
+        {
+            let value = y[self.modes + place];
+            if value.abs() > limit {
+                return Err(Divergence::OutOfRange { what: what.to_owned(), value, limit, unit });
+            }
+        }
+        for ((first, count), own) in self.ball_ranges().zip(&self.setup.bearings) {
+            let places = y[first..first + 2 * count].iter();
+            if let Some((place, &value)) = places.enumerate().find(|(_, value)| value.abs() > limit) {
+                let way = if place < count { "radial" } else { "axial" };
+                let what = format!("{way} place of ball {} of bearing {}", place % count + 1, own.label);
+                return Err(Divergence::OutOfRange { what, value, limit, unit: "m" });
+            }
+        }
+        Ok(())
     }
 }
 

@@ -6,6 +6,9 @@ use crate::bearing::spatial::SpatialBearing;
 use crate::system::LoadProfile;
 use nalgebra::Vector3;
 
+/// Coordinates of the shaft.
+pub(super) const SHAFT: usize = 5;
+
 /// The rigid shaft with all inner rings. Its coordinates are those of its centre of mass.
 #[derive(Debug, Clone, PartialEq)]
 pub struct SpatialShaft {

@@ -2,17 +2,14 @@
 
 use super::balls::BearingBalls;
 use super::equilibrium::SpatialEquilibrium;
-use super::setup::SpatialSetup;
+use super::setup::{SHAFT, SpatialSetup};
 use crate::bearing::RotationCursor;
 use crate::fe::reduction::frf::ModalDamping;
 use crate::numerics::lanes::{self, Lanes, scalar_product};
-use crate::numerics::ode::{Divergence, Instant, LinearCoordinate, SecondOrderSystem, State, all_finite};
+use crate::numerics::ode::{Instant, LinearCoordinate, State};
 use crate::system::{
     ModeSelection, Powers, RecordLayout, RunRecord, Simulated, Structure, StructureModes, SystemError,
 };
-
-/// Coordinates of the shaft.
-pub(super) const SHAFT: usize = 5;
 
 /// Structure by its modes, shaft and balls by their places.
 ///
@@ -114,56 +111,6 @@ impl SpatialSystem {
             *next += 2 * bearing.count;
             Some((own, bearing.count))
         })
-    }
-}
-
-impl SecondOrderSystem for SpatialSystem {
-    fn linear(&self) -> &[LinearCoordinate] {
-        &self.linear
-    }
-
-    fn force_into(&mut self, t: f64, y: &[f64], v: &[f64], g: &mut [f64]) {
-        super::force::evaluate(self, t, y, v, g);
-    }
-
-    fn next_change(&self, t: f64) -> f64 {
-        let loads = self.setup.shaft.loads.iter().map(|load| load.profile.next_knot(t));
-        let cages = self.setup.bearings.iter().map(|bearing| bearing.cage.rotation.next_knot(t));
-        loads.chain(cages).fold(f64::INFINITY, f64::min)
-    }
-
-    fn check(&self, y: &[f64], v: &[f64]) -> Result<(), Divergence> {
-        if !(all_finite(y) && all_finite(v)) {
-            return Err(Divergence::NotFinite);
-        }
-        // beyond half a ball's radius neither Hertz theory nor the geometry holds
-        let balls = self.setup.bearings.iter().map(|own| 0.5 * own.bearing.geometry().ball_radius());
-        let limit = balls.fold(f64::INFINITY, f64::min);
-        let tilt = 0.1;
-        for (place, (what, limit, unit)) in [
-            ("shaft displacement x", limit, "m"),
-            ("shaft displacement y", limit, "m"),
-            ("shaft displacement z", limit, "m"),
-            ("tilt of the shaft about x", tilt, "rad"),
-            ("tilt of the shaft about y", tilt, "rad"),
-        ]
-        .into_iter()
-        .enumerate()
-        {
-            let value = y[self.modes + place];
-            if value.abs() > limit {
-                return Err(Divergence::OutOfRange { what: what.to_owned(), value, limit, unit });
-            }
-        }
-        for ((first, count), own) in self.ball_ranges().zip(&self.setup.bearings) {
-            let places = y[first..first + 2 * count].iter();
-            if let Some((place, &value)) = places.enumerate().find(|(_, value)| value.abs() > limit) {
-                let way = if place < count { "radial" } else { "axial" };
-                let what = format!("{way} place of ball {} of bearing {}", place % count + 1, own.label);
-                return Err(Divergence::OutOfRange { what, value, limit, unit: "m" });
-            }
-        }
-        Ok(())
     }
 }
 

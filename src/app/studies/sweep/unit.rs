@@ -8,7 +8,7 @@ const ENDINGS: [(&str, &str); 4] = [("_radius", "m"), ("hz", "Hz"), ("rpm", "rpm
 
 /// Keys with a unit, by the last name on their path. Springs of housings are left out: theirs depends on what they are per.
 #[rustfmt::skip]
-const NAMES: [(&str, &[&str]); 13] = [
+const NAMES: [(&str, &[&str]); 14] = [
     ("m", &["amplitude", "ball_radius_differences", "centre", "depth", "length", "offset", "point", "points_within",
             "radial_play", "radius", "thickness", "width"]),
     ("s", &["beta", "end", "from", "start", "step", "time", "to"]),
@@ -20,6 +20,7 @@ const NAMES: [(&str, &[&str]); 13] = [
     ("m^4", &["axial_inertia", "inertia", "torsion"]),
     ("m/s^2", &["gravity"]),
     ("N", &["force"]),
+    ("N m", &["moment"]),
     ("1/s", &["alpha"]),
     ("s/m", &["contact_damping"]),
     ("", &["spectral_radius", "zero_deg"]), // of a method; a direction

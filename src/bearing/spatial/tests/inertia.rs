@@ -31,11 +31,12 @@ fn friction_turns_the_balls_angular_momentum() {
         let race = |n: Vector3<f64>, turn: f64, side: f64| turn * (0.5 * law.pitch_diameter + side * radius * n.x);
         let at_outer = own.cross(&(radius * n_o)).y;
         let at_inner = own.cross(&(-radius * n_i)).y;
-        assert_relative_eq!(at_outer, race(n_o, -ball.orbital_speed, 1.0), max_relative = 1e-12);
-        assert_relative_eq!(at_inner, race(n_i, speed - ball.orbital_speed, -1.0), max_relative = 1e-12);
+        // speeds follow the lines of centres, which differ by 1e-4 from the directions of the forces; at most the square of it counts
+        assert_relative_eq!(at_outer, race(n_o, -ball.orbital_speed, 1.0), max_relative = 1e-6);
+        assert_relative_eq!(at_inner, race(n_i, speed - ball.orbital_speed, -1.0), max_relative = 1e-4);
         // outer race control: the ball does not spin against the outer race about the contact's normal
         let against = own - Vector3::new(0.0, 0.0, -ball.orbital_speed);
-        assert!(against.dot(&n_o).abs() < 1e-10 * against.norm());
+        assert!(against.dot(&n_o).abs() < 1e-3 * against.norm());
 
         let inertia = 0.1 * law.mass * law.diameter.powi(2);
         let orbit = Vector3::new(0.0, 0.0, ball.orbital_speed);
@@ -50,11 +51,11 @@ fn friction_turns_the_balls_angular_momentum() {
         assert!((moment - rate).norm() < 1e-12 * rate.norm());
         let centrifugal = Vector3::new(ball.centrifugal_force, 0.0, 0.0);
         let sum = ball.load[0] * n_i - ball.load[1] * n_o + centrifugal + friction_i + friction_o;
-        // the change of the Hertz constants with the angle adds 0.4 (k'/k) delta / l, 3e-4 of the loads, across the contact
-        assert!(sum.norm() < 1e-3 * ball.load[0], "{sum}");
+        // friction is across the line of centres, the force 1e-4 beside it
+        assert!(sum.norm() < 1e-5 * ball.load[0], "{sum}");
         // the ring carries its share: thrust by load and friction
         let thrust = 16.0 * (ball.load[0] * n_i.z + friction_i.z);
-        assert_relative_eq!(thrust, 22_250.0, max_relative = 1e-3);
+        assert_relative_eq!(thrust, 22_250.0, max_relative = 1e-5);
         println!(
             "218, 22250 N, 10000 rpm, {control:?}: inner {:.2} deg {:.1} N, outer {:.2} deg {:.1} N, orbit {:.4}, F_c {:.1} N, M_g {:.4} N m",
             a_i.to_degrees(),
@@ -76,7 +77,7 @@ fn speeds_at_rest_angles_are_the_orders() {
     let load = ShaftLoad { force: [0.0, 0.0, 17_800.0], ..ShaftLoad::default() };
     let ball = shaft.equilibrium(&load).unwrap().bearings[0].balls[0];
     let orders = BallRow::new(16, 22.23e-3, 125.26e-3, ball.contact_angle[0].unwrap()).unwrap().orders();
-    // the changing Hertz constants part the two angles by 1e-5
+    // speeds follow the lines of centres, 1e-4 beside the directions of the forces
     assert_relative_eq!(ball.orbital_speed / 1e-3, orders.cage, max_relative = 1e-4);
     assert_relative_eq!(
         ball.spin_speed * (ball.pitch_angle - ball.contact_angle[1].unwrap()).cos() / 1e-3,
