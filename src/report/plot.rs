@@ -181,6 +181,11 @@ impl Plot {
         self
     }
 
+    /// Whether one of its curves has a point that is finite.
+    pub(crate) fn has_points(&self) -> bool {
+        self.curves.iter().any(|curve| curve.y.iter().any(|y| y.is_finite()))
+    }
+
     /// The plot with a vertical line more.
     pub fn marker(mut self, marker: Marker) -> Self {
         self.markers.push(marker);

@@ -20,6 +20,9 @@ fn condensed(set: &[&str]) -> CondenseResult {
     compute_condense(&load(set).unwrap(), Comparison::Full, &Unwatched).unwrap()
 }
 
+/// The first elastic frequencies of the free block are above the band that is the default.
+const BAND: &str = "accuracy.band_hz=[0,100000]";
+
 /// Centre nodes of both bores, tied in these ways.
 fn centres(front: &str, rear: &str) -> String {
     format!(
@@ -90,7 +93,7 @@ fn transfer_paths_between_the_bearings_are_reciprocal() {
 #[test]
 fn rigid_bores_are_stiffer_than_bores_in_the_mean_which_change_nothing() {
     let lowest = |front: &str, rear: &str| {
-        let result = condensed(&[FREE, SENSOR, &centres(front, rear)]);
+        let result = condensed(&[FREE, SENSOR, BAND, &centres(front, rear)]);
         for check in &result.checks {
             assert!(check.ok(), "{front} {rear}: {check:?}");
         }

@@ -290,6 +290,16 @@ impl RigidShaft {
         for (index, mounted) in self.bearings.iter().enumerate() {
             let own = self.at_bearing(index, &displacement);
             let state = mounted.bearing.state(&own, self.condition(index))?;
+            for ball in &state.balls {
+                if let Some(angle) = ball.contact_angle.into_iter().flatten().find(|angle| angle.cos() <= 0.0) {
+                    return Err(BearingError(format!(
+                        "a ball at {:.1} degrees touches a race at a contact angle of {:.1} degrees, expected less than 90: \
+                         no groove reaches so far; reduce load, tilt or play",
+                        ball.azimuth.to_degrees(),
+                        angle.to_degrees()
+                    )));
+                }
+            }
             let carried = state.balls.iter().any(|ball| ball.load[0] > 0.0);
             if carried && mounted.bearing.engagement(own.translation[2]) <= 0.0 {
                 return Err(BearingError(format!(

@@ -3,9 +3,10 @@
 
 use super::coupled_lowest::CoupledProblem;
 use super::interior_basis::{filled, modes, with_amplitudes};
+use super::parts::diagonal;
 use super::{CharacteristicModes, InteriorBasis, ReductionError, Substructure};
 use crate::numerics::Watch;
-use crate::numerics::linalg::{DenseMatrix, congruent, symmetric_generalised_eigen};
+use crate::numerics::linalg::{DenseMatrix, symmetric_generalised_eigen};
 use schemars::JsonSchema;
 use serde::Serialize;
 
@@ -63,7 +64,8 @@ pub(crate) fn size_study(
         Ok(error(&whole.lowest(basis, full_hz.len())?.values))
     };
     let first_modes = interface.vectors.subcols(0, largest.min(interface.count())).to_owned();
-    let stiffness = congruent(&interface.stiffness, &first_modes);
+    // rigid motions have exactly none: round-off in its place would not be positive
+    let stiffness = diagonal(&interface.values[..first_modes.ncols()]);
     // squared frequencies on the first modes of the interface and a basis of the interior
     let on_modes = |basis: &InteriorBasis, kept: usize| -> Result<Vec<f64>, ReductionError> {
         let driven = &basis.participation * first_modes.subcols(0, kept);
@@ -83,7 +85,8 @@ pub(crate) fn size_study(
         let mut best: Option<ReducedSize> = None;
         for basis in &bases {
             let kept = size - basis.count();
-            if kept > interface.count() {
+            // rigid motions have no stiffness; without them all no frequency is judged
+            if kept > interface.count() || kept < interface.rigid || size == interface.rigid {
                 continue;
             }
             let found = error(&on_modes(basis, kept)?);

@@ -197,7 +197,10 @@ fn balls_section(state: &BearingState) -> Section {
         .curve(over("inner race", &angle(0)))
         .curve(over("outer race", &angle(1)).style(CurveStyle::Dashed))
         .caption("Contact angle of every ball that touches, at both races. With speed the two part: the outer angle falls, the inner one grows.");
-    Section::new("Balls").plot(loads).plot(angles).table(Table::new("Balls", columns).rows(rows))
+    let section = Section::new("Balls").plot(loads);
+    // no ball touches a bearing without load
+    let section = if angles.has_points() { section.plot(angles) } else { section };
+    section.table(Table::new("Balls", columns).rows(rows))
 }
 
 fn orders_section(result: &BearingResult) -> Section {
@@ -243,5 +246,6 @@ fn curve_section(title: &str, axis: &str, unit: &str, points: &[CurvePoint]) -> 
             (tilts, tilting) = (tilts.curve(moved), tilting.curve(stiff));
         }
     }
-    Section::new(title).plot(lengths).plot(tilts).plot(stiffness).plot(tilting)
+    let plots = [lengths, tilts, stiffness, tilting];
+    plots.into_iter().filter(Plot::has_points).fold(Section::new(title), Section::plot)
 }

@@ -1,8 +1,9 @@
 //! The command from a case to its result and page.
 
-use super::compute::compute_bearing;
+use super::compute::{BearingResult, compute_bearing};
 use super::report::bearing_report;
 use crate::app::case::{Case, Source};
+use crate::app::error::ComputeError;
 use crate::numerics::Unwatched;
 use approx::assert_relative_eq;
 
@@ -75,4 +76,31 @@ fn preload_speed_and_what_does_not_count() {
     // a load that pushes the rings apart cannot be computed
     let error = compute_bearing(&case(&["bearing.thrust=negative"]), None, true, &Unwatched).unwrap_err();
     assert!(!error.is_input(), "{error}");
+}
+
+/// A deep groove bearing with tight grooves and play, loaded by these newtons downwards, its tilt held.
+fn tight(load: f64) -> (Case, Result<BearingResult, ComputeError>) {
+    let text = format!(
+        "[bearing]\nballs = 9\nball_radius = 3.5e-3\ninner_race_radius = 15.5e-3\nouter_race_radius = 22.51e-3\n\
+         inner_groove_radius = 3.535e-3\nouter_groove_radius = 3.535e-3\nradial_play = 6e-5\n\
+         [shaft]\nmass = 1\ngravity = [0, 0]\nloads = [{{ force = [0, -{load}, 0] }}]\n"
+    );
+    let case = Case::from_source(Source { path: "case.toml".into(), text, set: Vec::new() }).unwrap();
+    let result = compute_bearing(&case, None, true, &Unwatched);
+    (case, result)
+}
+
+/// Balls opposite the load would have to stand on the far side of their grooves.
+#[test]
+fn a_contact_beyond_ninety_degrees_is_no_result() {
+    let error = tight(8000.0).1.unwrap_err().to_string();
+    assert!(error.contains("expected less than 90: no groove reaches so far"), "{error}");
+}
+
+/// Plots without points are left out of the page of a bearing that nothing loads.
+#[test]
+fn a_bearing_without_load_has_a_page() {
+    let (case, result) = tight(0.0);
+    let page = bearing_report(&case, &result.unwrap(), "plummer bearing case.toml").to_html().unwrap();
+    assert!(page.contains("Ball loads") && !page.contains("Contact angles"));
 }

@@ -9,7 +9,7 @@ const ENDINGS: [(&str, &str); 4] = [("_radius", "m"), ("hz", "Hz"), ("rpm", "rpm
 /// Keys with a unit, by the last name on their path. Springs of housings are left out: theirs depends on what they are per.
 #[rustfmt::skip]
 const NAMES: [(&str, &[&str]); 14] = [
-    ("m", &["amplitude", "ball_radius_differences", "centre", "depth", "length", "offset", "point", "points_within",
+    ("m", &["amplitude", "ball_radius_differences", "centre", "depth", "displacement", "length", "offset", "point", "points_within",
             "radial_play", "radius", "thickness", "width"]),
     ("s", &["beta", "end", "from", "start", "step", "time", "to"]),
     ("kg", &["ball_mass", "mass"]),
