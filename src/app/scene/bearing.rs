@@ -149,13 +149,12 @@ pub(crate) fn slip(asked: &Slip) -> Result<SlipProfile, ComputeError> {
 
 /// The shaft and its loads.
 pub(crate) fn shaft(asked: &case::Shaft) -> Shaft {
+    // `Case::in_the_plane` refuses more than these two components
     let load = |load: &Load| match load {
         Load::Constant(force) => LoadProfile::constant(*force),
-        // `Case::in_the_plane` refuses more than these two components
-        Load::Spatial { force: [x, y, _], .. } => LoadProfile::constant([*x, *y]),
-        Load::Profile(points) => {
-            let points: Vec<_> = points.iter().map(|p| (p.time, p.force)).collect();
-            LoadProfile::through(&points)
+        other => {
+            let points = other.in_space().1;
+            LoadProfile::through(&points.iter().map(|(time, [x, y, ..])| (*time, [*x, *y])).collect::<Vec<_>>())
         }
     };
     Shaft { mass: asked.mass, unbalance: asked.unbalance, loads: asked.loads.iter().map(load).collect() }

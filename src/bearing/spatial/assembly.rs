@@ -141,6 +141,13 @@ impl SpatialBearing {
         self.thrust
     }
 
+    /// Largest pressure of a contact under a load (N) at a contact angle (rad), Pa; zero without load.
+    pub(crate) fn peak_pressure(&self, race: Race, load: f64, angle: f64) -> f64 {
+        let modulus = self.moduli[usize::from(race == Race::Outer)];
+        let hertz = hertz_at(&self.geometry, race, angle.cos().max(0.0), modulus);
+        hertz.map_or(0.0, |hertz| hertz.patch(load).peak_pressure)
+    }
+
     /// How far the inner groove's centres stand from the outer ones along the thrust, m, at an axial `displacement`; below zero the
     /// rings are pushed apart. Not limited for thrust both ways.
     pub(crate) fn engagement(&self, displacement: f64) -> f64 {

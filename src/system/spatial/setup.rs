@@ -78,6 +78,11 @@ impl SpatialSetup {
         self.bearings.iter().map(|bearing| bearing.bearing.balls()).sum()
     }
 
+    /// Whether a part of a bearing is damaged.
+    pub(crate) fn has_defects(&self) -> bool {
+        false
+    }
+
     /// Generalised force on the shaft at `time` (s), N and N m, the weight included, the rotating unbalance not. Moments belong to the
     /// tilts.
     #[inline]

@@ -3,7 +3,7 @@
 //! Signals of a file, and all that nothing says of them.
 
 use super::AnalyzeArguments;
-use super::machine::{Machine, Named, in_the_plane, named_bearing};
+use super::machine::{Machine, Named, bearing_of_run, in_the_plane, named_bearing};
 use crate::app::case::{Case, EnvelopeBand, Purpose, ReportDetails};
 use crate::app::cli::earlier_results::{Wanted, case_of_results};
 use crate::app::cli::output::extend_new;
@@ -72,7 +72,8 @@ impl Source {
             Some(_) => None,
             None => ReportDetails::of_arguments(&options.set)?,
         };
-        let machine = Machine::of(asked, is_run, case.as_ref(), options)?;
+        let run = Some(input).filter(|_| is_run);
+        let machine = Machine::of(asked, run, case.as_ref(), options)?;
         let read = read(&file, request, unnamed).map_err(ComputeError::from)?;
         let mut missing = read.missing;
         if machine.orders.is_none() {
@@ -156,7 +157,9 @@ impl Source {
     pub(super) fn machine_facts(&self) -> Vec<Fact> {
         match (&self.case, self.is_run) {
             (Some(case), true) => parts::inputs(case, Purpose::Run, None),
-            (Some(case), false) => case.bearing.iter().map(parts::bearing_fact).collect(),
+            (Some(case), false) => {
+                case.all_bearings().into_iter().map(|(_, bearing)| parts::bearing_fact(bearing)).collect()
+            }
             (None, _) => self.machine.catalogue.iter().map(|words| Fact::new("Bearing", words)).collect(),
         }
     }
@@ -273,7 +276,13 @@ fn flaws_of(name: &str, series: &TimeSeries) -> Vec<String> {
 
 /// Filter and windows: what was typed, else what the run's case says.
 fn settings(asked: &AnalyzeArguments, case: Option<&Case>) -> AnalysisSettings {
-    let mut settings = case.map(AnalysisSettings::of).unwrap_or_default();
+    let label = case.and_then(|case| bearing_of_run(asked, case).ok().flatten());
+    let of_case = |case: &Case| {
+        let seats = case.seats();
+        let own = label.as_ref().and_then(|label| seats.iter().find(|seat| seat.label == *label)?.bearing);
+        AnalysisSettings::of(case, own.or(case.bearing.as_ref()))
+    };
+    let mut settings = case.map(of_case).unwrap_or_default();
     if !asked.window.is_empty() {
         settings.windows = asked.window.clone();
     }
