@@ -146,6 +146,13 @@ impl Case {
             .into_iter()
             .filter(|(_, given)| *given)
             .map(|(key, _)| (seat.key(&format!("bearing.{key}")), "a key of the bearing in space"))
+            .chain(bearing.defects.iter().enumerate().filter_map(|(index, defect)| match defect {
+                Defect::Dent(dent) if dent.across.is_some() => {
+                    Some((seat.key(&format!("bearing.defects[{index}].across")), "a place across the groove"))
+                }
+                _ => None,
+            }))
+            .collect::<Vec<_>>()
         });
         let of_shaft = self.shaft.iter().flat_map(|shaft| {
             let loads = shaft.loads.iter().enumerate().filter(|(_, load)| !load.is_in_plane());
