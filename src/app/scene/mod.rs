@@ -32,7 +32,7 @@ pub mod tie_price;
 pub use at_rest::{RunModel, Scene};
 pub use bearing::bearing_setup;
 pub(crate) use bearing::{bearing_geometry, race_contacts};
-pub use centres::Centres;
+pub use centres::{Centres, RingsAndCentres};
 pub use condensed::CondensedHousing;
 pub(crate) use doubts::{doubts, doubts_of_case};
 pub use housing::AssembledHousing;

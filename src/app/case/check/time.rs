@@ -230,7 +230,9 @@ pub(super) fn condense(case: &Case) -> Result<(), BrokenRule> {
         InterfaceModes::Count(count) => ABOVE_ZERO.check("condense.interface_modes", count as f64)?,
         InterfaceModes::UpToHz(limit) => ABOVE_ZERO.check("condense.interface_modes.up_to_hz", limit)?,
     }
-    if let Interface::Centres(centres) = &case.condense.interface {
+    if let Interface::Centres { centres, rings } = &case.condense.interface {
+        let tied = case.seats().iter().any(|seat| seat.ring.tie.is_some());
+        needs("condense.interface.rings", "`ring.tie`", tied || !rings)?;
         not_empty("condense.interface.centres", centres.len(), "at least one bore")?;
         let groups = centres.iter().map(|centre| centre.group.as_str());
         each_once(groups, |index| format!("condense.interface.centres[{index}].group"))?;
