@@ -84,7 +84,7 @@ impl ImportedHousing {
         let imported = Self {
             path: path.to_owned(),
             notes: notes(case, path, &record),
-            checks: check_matrices(&element)?,
+            checks: check_matrices(&element, None)?,
             record,
             element,
         };

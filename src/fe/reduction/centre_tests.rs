@@ -397,6 +397,35 @@ fn interfaces_of_all_kinds_stand_in_one() {
     assert!(all.basis.count() > enhanced.basis.count());
 }
 
+/// A free body on one node has no stiffness there but round-off. Its checks pass, and fail by a wrong entry of a millionth of what
+/// the stiffness is made of.
+#[test]
+fn a_free_body_on_one_centre_passes_its_checks() {
+    let scene = Scene::new(3, false);
+    for tie in [CentreTie::Mean, CentreTie::Rigid] {
+        let centre = scene.centre("left", LEFT, tie);
+        let motions = scene.rigid(&[&centre]);
+        let failed = |condensed: &CraigBampton| -> Vec<&str> {
+            let checks = check_craig_bampton(condensed, None, &scene.matrices, &motions, 20e3).expect("finite");
+            checks.iter().filter(|check| !check.ok()).map(|check| check.name).collect()
+        };
+        let right = condensed(&scene, centre.partition(), BasisSize::UpTo(40e3), false);
+        assert_eq!(failed(&right), [""; 0], "{tie:?}");
+        let alone = check_matrices(&right.superelement, None).expect("finite");
+        assert!(alone.iter().all(Check::ok), "{alone:?}");
+        let wrong = |share: f64| {
+            let mut wrong = right.clone();
+            wrong.superelement.stiffness[(1, 1)] += share * wrong.substructure.made_of[1];
+            failed(&wrong)
+        };
+        assert!(wrong(1e-6).contains(&"rigid energy"), "{:?}", wrong(1e-6));
+        assert!(wrong(-1e-6).contains(&"stiffness semidefinite"), "{:?}", wrong(-1e-6));
+        let mut wrong = right.clone();
+        wrong.substructure.constraint_modes[(40, 1)] += 1e-6;
+        assert!(failed(&wrong).contains(&"constraint modes orthogonal"), "{:?}", failed(&wrong));
+    }
+}
+
 /// Checks fire where a mean is not kept: vectors or static modes that move it.
 #[test]
 fn a_static_mode_that_is_none_fails_its_check() {

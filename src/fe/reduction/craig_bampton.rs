@@ -148,11 +148,23 @@ impl CraigBampton {
         let amplitudes = coordinates.subrows(interface, self.basis.count());
         let interior = &self.substructure.constraint_modes * boundary + &self.basis.vectors * amplitudes;
         let driven = sparse_times_dense(&partition.tie, &boundary.to_owned());
-        let mut all = DenseMatrix::zeros(dof, coordinates.ncols());
+        let mut all = self.interior_field(&interior, dof);
         for column in 0..coordinates.ncols() {
             let to = all.col_as_slice_mut(column);
-            let inside = partition.interior.iter().zip(interior.col_as_slice(column));
-            for (&dof, &value) in inside.chain(partition.driven.iter().zip(driven.col_as_slice(column))) {
+            for (&dof, &value) in partition.driven.iter().zip(driven.col_as_slice(column)) {
+                to[dof] = value;
+            }
+        }
+        all
+    }
+
+    /// Displacements over all degrees of freedom of the housing [dof x k] of motions of the interior alone [interior x k].
+    pub(super) fn interior_field(&self, interior: &DenseMatrix, dof: usize) -> DenseMatrix {
+        let mut all = DenseMatrix::zeros(dof, interior.ncols());
+        for column in 0..interior.ncols() {
+            let to = all.col_as_slice_mut(column);
+            let inside = &self.substructure.partition.interior;
+            for (&dof, &value) in inside.iter().zip(interior.col_as_slice(column)) {
                 to[dof] = value;
             }
         }

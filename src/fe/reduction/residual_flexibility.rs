@@ -18,13 +18,18 @@ use faer::c64;
 /// says nothing.
 const NEAREST: f64 = 0.9;
 
+/// Strain energy of W beside that of what the basis carries, below which it is round-off.
+const CARRIED: f64 = 1e-20;
+
 /// Residual flexibility for some forces on the interior, in columns [interior x k].
 #[derive(Debug, Clone)]
 pub struct ResidualFlexibility {
+    /// W [interior x k].
+    pub(super) moved: DenseMatrix,
     /// `W^T K_ii W` [k x k].
-    flexibility: DenseMatrix,
+    pub(super) flexibility: DenseMatrix,
     /// `W^T M_ii W` [k x k].
-    inertia: DenseMatrix,
+    pub(super) inertia: DenseMatrix,
     complete_below: f64,
 }
 
@@ -44,10 +49,21 @@ impl ResidualFlexibility {
             entries.zip(basis.values()).for_each(|(entry, value)| *entry /= value);
         }
         // W
-        let moved = substructure.solve_interior(forces)? - &basis.vectors * carried;
+        let mut moved = substructure.solve_interior(forces)? - &basis.vectors * &carried;
+        let mut flexibility = moved.transpose() * substructure.interior.stiffness_times(&moved);
+        for column in 0..moved.ncols() {
+            let entries = carried.col_as_slice(column).iter().zip(basis.values());
+            let energy: f64 = entries.map(|(entry, value)| entry * entry * value).sum();
+            if flexibility[(column, column)] <= CARRIED * energy {
+                moved.col_mut(column).fill(0.0);
+                flexibility.col_mut(column).fill(0.0);
+                flexibility.row_mut(column).fill(0.0);
+            }
+        }
         Ok(Self {
-            flexibility: moved.transpose() * substructure.interior.stiffness_times(&moved),
             inertia: moved.transpose() * substructure.interior.mass_times(&moved),
+            flexibility,
+            moved,
             complete_below: basis.complete_below,
         })
     }

@@ -41,6 +41,9 @@ pub struct Substructure {
     /// Constraint modes Psi [interior x interface].
     pub(super) constraint_modes: DenseMatrix,
     stiffness: DenseMatrix,
+    /// Stiffness of each interface coordinate before the interior gives way, N/m: what k_bb is summed from. Of a free body on one
+    /// node k_bb is nothing but its round-off.
+    pub(super) made_of: Vec<f64>,
     /// m_bb [interface x interface], kg.
     pub(super) mass: DenseMatrix,
 }
@@ -81,8 +84,10 @@ impl Substructure {
         let stiffness_ib = (&submatrix(k, i, b) * tie).to_csc();
         let mass_ib = (&submatrix(m, i, b) * tie).to_csc();
         let driven = |a: &SparseMatrix| dense(&congruence(&submatrix(a, b, b), tie));
+        let stiffness = driven(k);
         let mut substructure = Self {
-            stiffness: driven(k),
+            made_of: (0..tie.cols()).map(|row| stiffness[(row, row)]).collect(),
+            stiffness,
             mass: driven(m),
             constraint_modes: DenseMatrix::zeros(i.len(), tie.cols()),
             partition: partition.clone(),
@@ -102,7 +107,13 @@ impl Substructure {
             let mut pulled = columns_of(stiffness_ib, first, width);
             let lift = self.interior.lift(first, width);
             if let Some(lift) = &lift {
-                pulled += self.interior.stiffness_times(lift);
+                let stiff = self.interior.stiffness_times(lift);
+                for column in 0..width {
+                    let parts = (0..lift.nrows())
+                        .map(|row| lift[(row, column)] * (2.0 * pulled[(row, column)] + stiff[(row, column)]));
+                    self.made_of[first + column] += parts.sum::<f64>();
+                }
+                pulled += stiff;
             }
             pulled *= faer::Scale(-1.0);
             let mut modes = self.interior.solve(pulled)?;

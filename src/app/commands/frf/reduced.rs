@@ -164,9 +164,13 @@ impl<'c> ReducedPaths<'c> {
         let mut reduced = Self::of(case, frf, meshed(stage.with_loads(&loads)?), band_hz)?;
         if let BasisSize::Auto(target) = choice.size {
             watch.stage("basis for the responses");
+            let mut order = 0;
             for _ in 0..ENLARGEMENTS {
+                let grown = std::mem::replace(&mut order, reduced.system.order()) < order;
+                let error = reduced.estimate.as_ref().and_then(ResponseEstimate::largest);
+                let too_large = error.is_some_and(|(_, error)| error > MARGIN * target);
                 match (reduced.housing, &reduced.estimate) {
-                    (FrfHousing::Mesh(stage), Some(estimate)) if estimate.lacking > MARGIN * target => {
+                    (FrfHousing::Mesh(stage), Some(estimate)) if grown && too_large => {
                         let stage = stage.with_forces(estimate.forces.clone())?;
                         reduced = Self::of(case, frf, meshed(stage), band_hz)?;
                     }
@@ -200,7 +204,10 @@ impl<'c> ReducedPaths<'c> {
                 InteriorDamping {
                     structural: stage.structural.as_ref(),
                     mass: mass_damping(case)?,
-                    by_mode: matches!(damping(case)?, ModalDamping::Uniform(ratio) if ratio > 0.0),
+                    ratio: match damping(case)? {
+                        ModalDamping::Uniform(ratio) => ratio,
+                        _ => 0.0,
+                    },
                 },
                 &system,
                 &basis,

@@ -90,9 +90,8 @@ fn coupling(condensed: &CraigBampton, matrices: &SystemMatrices) -> f64 {
     let stiff = substructure.interior.stiffness_times(q);
     let product = stiff.transpose() * &substructure.constraint_modes
         + transpose_times_dense(&partition.tie, &transpose_times_dense(&k_ib, q)).transpose();
-    let k_bb = &condensed.superelement.stiffness;
-    let typical = (0..substructure.interface_dof()).map(|row| k_bb[(row, row)]);
-    let typical = typical.fold(f64::MIN_POSITIVE, f64::max);
+    // k_bb of a free body on one node is round-off of what it was summed from
+    let typical = substructure.made_of.iter().copied().fold(f64::MIN_POSITIVE, f64::max);
     let entries = (0..product.ncols()).flat_map(|column| {
         let product = &product;
         (0..product.nrows()).map(move |row| product[(row, column)] / (values[row] * typical).sqrt())
@@ -147,7 +146,8 @@ pub(crate) fn check_craig_bampton(
     band_hz: f64,
 ) -> Result<Vec<Check>, ReductionError> {
     let element = reduction.map_or(&condensed.superelement, |reduced| &reduced.superelement);
-    let mut all = check_matrices(element)?;
+    let made_of = reduction.is_none().then_some(&*condensed.substructure.made_of);
+    let mut all = check_matrices(element, made_of)?;
     let of_basis = checks(condensed, matrices, band_hz).into_iter();
     all.extend(of_basis.filter(|check| reduction.is_none() || check.name != STATIC_INTERFACE));
     all.extend(rigid.checks(condensed, reduction, matrices)?);

@@ -22,33 +22,36 @@ const SEMIDEFINITE: f64 = -1e-9;
 /// modes, of which residuals are below 1e-5 and errors of orthogonality below the square of that.
 const BLOCK: f64 = 1e-8;
 
-/// Checks of the matrices alone: they hold for a superelement from anywhere.
+/// Checks of the matrices alone: they hold for a superelement from anywhere. `made_of` is what the interface's stiffness was summed
+/// from, where it is known.
 ///
 /// # Errors
 /// What the dense eigenvalue solver reports.
-pub(crate) fn check_matrices(element: &Superelement) -> Result<Vec<Check>, ReductionError> {
+pub(crate) fn check_matrices(element: &Superelement, made_of: Option<&[f64]>) -> Result<Vec<Check>, ReductionError> {
     let (k, m) = (&element.stiffness, &element.mass);
     let (b, n) = (element.interface_dof, element.order());
-    let lowest_k = symmetric_eigen(&scaled(k))?;
+    let references = references(element, made_of);
+    let lowest_k = symmetric_eigen(&scaled(k, &references))?;
     let acting = acting_motions(k, m)?;
     let lowest_m = match &acting {
-        Some(basis) => symmetric_eigen(&scaled(&congruent(m, basis)))?,
-        None => symmetric_eigen(&scaled(m))?,
+        Some(basis) => symmetric_eigen(&unit_diagonal(&congruent(m, basis)))?,
+        None => symmetric_eigen(&unit_diagonal(m))?,
     };
     let idle = acting.map_or(0, |basis| n - basis.ncols());
     let first = |values: &[f64]| values.first().copied().unwrap_or(1.0);
+    let root = |row: usize, column: usize| (references[row] * references[column]).sqrt();
     let modal = b..n;
     let coupling = modal.clone().flat_map(|q| (0..b).map(move |row| (row, q)));
-    let coupling = largest(coupling.map(|(row, q)| k[(row, q)] / root(k, row, q)));
+    let coupling = largest(coupling.map(|(row, q)| k[(row, q)] / root(row, q)));
     let unit = largest(pairs(n - b).map(|(p, q)| m[(b + p, b + q)] - f64::from(u8::from(p == q))));
     let diagonal = modal.clone().flat_map(|q| (b..q).map(move |p| (p, q)));
-    let diagonal = largest(diagonal.map(|(p, q)| k[(p, q)] / root(k, p, q)));
+    let diagonal = largest(diagonal.map(|(p, q)| k[(p, q)] / root(p, q)));
     Ok(vec![
         Check::at_most("stiffness symmetry", "largest |k - k^T| / largest |k|", asymmetry(k), SYMMETRY),
         Check::at_most("mass symmetry", "largest |m - m^T| / largest |m|", asymmetry(m), SYMMETRY),
         Check::at_least(
             "stiffness semidefinite",
-            "lowest eigenvalue of k scaled to a unit diagonal",
+            "lowest eigenvalue of k, relative to the stiffness that it is made of",
             first(&lowest_k.values),
             SEMIDEFINITE,
         ),
@@ -79,9 +82,22 @@ pub(crate) fn check_matrices(element: &Superelement) -> Result<Vec<Check>, Reduc
     ])
 }
 
-fn root(a: &DenseMatrix, row: usize, column: usize) -> f64 {
-    let product = (a[(row, row)] * a[(column, column)]).abs().sqrt();
-    if product > 0.0 { product } else { 1.0 }
+/// What each row of k is measured by: its diagonal, but at the interface no less than what it was summed from. Of a file, where
+/// that is not known, it is the inertia at the lowest fixed-interface frequency: k_bb of a free body on one node is round-off.
+fn references(element: &Superelement, made_of: Option<&[f64]>) -> Vec<f64> {
+    let (k, m) = (&element.stiffness, &element.mass);
+    let b = element.interface_dof;
+    let lowest = (b..element.order()).map(|row| k[(row, row)]).reduce(f64::min).unwrap_or(0.0);
+    let of = |row: usize| {
+        let least = match made_of {
+            _ if row >= b => 0.0,
+            Some(made_of) => made_of[row],
+            None => lowest * m[(row, row)],
+        };
+        let reference = k[(row, row)].max(least);
+        if reference > 0.0 { reference } else { 1.0 }
+    };
+    (0..element.order()).map(of).collect()
 }
 
 /// Places of a square matrix, column by column.
@@ -102,15 +118,16 @@ fn asymmetry(a: &DenseMatrix) -> f64 {
 }
 
 /// `D A D` with a unit diagonal; a row without a diagonal stays as it is.
-fn scaled(a: &DenseMatrix) -> DenseMatrix {
-    let scale: Vec<f64> = (0..a.nrows())
-        .map(|row| {
-            let diagonal = a[(row, row)];
-            if diagonal > 0.0 { diagonal.sqrt().recip() } else { 1.0 }
-        })
-        .collect();
+fn unit_diagonal(a: &DenseMatrix) -> DenseMatrix {
+    let diagonal = (0..a.nrows()).map(|row| a[(row, row)]);
+    let references: Vec<f64> = diagonal.map(|diagonal| if diagonal > 0.0 { diagonal } else { 1.0 }).collect();
+    scaled(a, &references)
+}
+
+/// `D A D`, symmetric, D the inverse roots of some references.
+fn scaled(a: &DenseMatrix, references: &[f64]) -> DenseMatrix {
     DenseMatrix::from_fn(a.nrows(), a.ncols(), |row, column| {
-        0.5 * scale[row] * (a[(row, column)] + a[(column, row)]) * scale[column]
+        0.5 * (a[(row, column)] + a[(column, row)]) / (references[row] * references[column]).sqrt()
     })
 }
 

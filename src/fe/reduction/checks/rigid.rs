@@ -57,9 +57,14 @@ impl RigidMotions {
         }
         let interface = &self.interface * &free;
         let housing = self.moving(condensed) * &free;
-        let whole = faer::concat![[interface], [DenseMatrix::zeros(condensed.basis.count(), interface.ncols())]];
+        let whole =
+            faer::concat![[interface.as_ref()], [DenseMatrix::zeros(condensed.basis.count(), interface.ncols())]];
         // round-off of k is that of the large terms that it was summed from, on the interface itself
-        let scale = magnitude(&whole, &condensed.superelement.stiffness);
+        let made_of = &condensed.substructure.made_of;
+        let scale = largest((0..interface.ncols()).map(|motion| -> f64 {
+            made_of.iter().enumerate().map(|(row, made_of)| made_of * interface[(row, motion)].powi(2)).sum()
+        }));
+        let scale = scale.max(magnitude(&whole, &condensed.superelement.stiffness));
         let (coordinates, on_interface) = match reduction {
             Some(reduced) => {
                 let nearest = reduced.nearest(&interface);
@@ -88,7 +93,7 @@ impl RigidMotions {
             ),
             Check::at_most(
                 "rigid energy",
-                "strain energy of the rigid motions, relative to the magnitudes of its terms",
+                "strain energy of the rigid motions, relative to what it is summed from",
                 largest((0..energy.ncols()).map(|motion| energy[(motion, motion)])) / scale,
                 FREE,
             ),

@@ -164,24 +164,6 @@ impl ModalSuperposition {
         (omega > 0.0).then(|| loss / (2.0 * omega * omega))
     }
 
-    /// What damping does at a frequency (Hz) to the contributions of the modes above a squared angular frequency (1/s^2),
-    /// `sum (d phi_r)(phi_r^T f) [1 / (a + i b) - 1 / a]` with `a = w_r^2 - w^2`, `b = w c_r + s_r` [s x p], m/N.
-    pub(in crate::fe::reduction) fn damped_above(&self, squared: f64, hz: f64) -> ComplexMatrix {
-        let omega = TAU * hz;
-        let first = self.squared.partition_point(|own| *own <= squared);
-        let changes: Vec<c64> = (first..self.modes())
-            .map(|mode| {
-                let a = c64::new(self.squared[mode] - omega * omega, 0.0);
-                let damped = a + c64::i() * (omega * self.rates[mode] + self.losses[mode]);
-                1.0 / damped - 1.0 / a
-            })
-            .collect();
-        ComplexMatrix::from_fn(self.seen.nrows(), self.driven.ncols(), |sensor, load| {
-            let parts = changes.iter().zip(first..);
-            parts.map(|(change, mode)| *change * self.weight(sensor, load, mode)).sum()
-        })
-    }
-
     /// Receptances at ascending frequencies, Hz. The frequencies are shared among threads; what is computed for one does
     /// not depend on their number.
     ///

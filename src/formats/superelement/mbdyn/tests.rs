@@ -173,6 +173,27 @@ fn modes_diagonalise_mass_and_stiffness_and_shapes_belong_to_them() {
 }
 
 /// With the first body held the second one's frequencies are those of its springs to the first.
+/// Stiffness of a free body on one node is round-off, without equal signs left and right of a motion.
+#[test]
+fn a_free_body_on_one_node_is_written() {
+    let round_off =
+        |row: usize, column: usize| if row.max(column) < 6 { 1e-6 * ((row * column) as f64).sin() } else { 0.0 };
+    let with = |stiffness: f64| {
+        let stiffness = DenseMatrix::from_fn(7, 7, |row, column| match (row, column) {
+            (6, 6) => 1e8,
+            (1, 1) => stiffness,
+            _ => round_off(row, column),
+        });
+        let masses = [2.0, 2.0, 2.0, 0.02, 0.03, 0.04, 1.0];
+        let mass = DenseMatrix::from_fn(7, 7, |i, j| if i == j { masses[i] } else { 0.0 });
+        SuperelementRecord::of_matrices(stiffness, mass, labels(&[(11, [0.0; 3])])).unwrap()
+    };
+    let (summary, _) = written(&with(1e-6));
+    assert!((summary.mass.unwrap() - 2.0).abs() < 1e-14);
+    // held to the ground
+    assert!(refused(&with(1e6)).contains("found 5 rigid motions"), "{}", refused(&with(1e6)));
+}
+
 #[test]
 fn a_node_that_is_held_does_not_move_in_the_shapes() {
     let record = free_body();
