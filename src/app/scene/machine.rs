@@ -1,16 +1,16 @@
 //! A rigid shaft in its bearings in their housing, at rest where a run in space starts.
 
-use super::bearing::{slip, speed};
+use super::bearing::{defects, slip, speed, stiffness};
 use super::damping::{damping, refuse_structural_damping};
 use super::doubts::doubts;
 use super::spatial::{spatial_bearing, spatial_load};
 use super::structure::{CoupledStructure, needed_modes};
-use crate::app::case::{self, Case, Preload, Rule, Seat, SpatialCase};
+use crate::app::case::{self, Case, Defect, DentDefect, Preload, Rule, Seat, SpatialCase};
 use crate::app::error::ComputeError;
 use crate::app::scene::RunModel;
-use crate::bearing::Cage;
+use crate::bearing::{Cage, Race};
 use crate::bearing::kinematics::DefectOrders;
-use crate::bearing::spatial::SpatialBearing;
+use crate::bearing::spatial::{AcrossGroove, GrooveDefect, SpatialBearing};
 use crate::fe::model::RingSeat;
 use crate::fe::reduction::frf::ModalDamping;
 use crate::numerics::Watch;
@@ -73,6 +73,7 @@ impl MachineScene {
         if equilibrium.directions_down > 0 {
             doubts.push("the equilibrium that the run starts from is not stable: the shaft leaves it at the smallest push; other loads, more preload or another bearing.first_ball_deg start from a stable one".to_owned());
         }
+        doubts.extend(starts_in_damage(&setup, start));
         Ok(Self { stage, setup, orders, damping: damping(case)?, start, equilibrium, doubts })
     }
 
@@ -114,6 +115,27 @@ impl MachineScene {
     }
 }
 
+/// That a ball starts on a defect, a sentence a bearing: the rest that a run begins with is one on whole races.
+fn starts_in_damage(setup: &SpatialSetup, start: f64) -> Vec<String> {
+    let told = setup.bearings.iter().filter(|own| {
+        let cage = own.cage.motion(start).angle;
+        let shaft = own.cage.shaft().angle(start);
+        let balls = (0..own.bearing.balls()).map(|ball| own.cage.ball_angle(cage, ball as u32));
+        let on = |angle: f64| {
+            own.bearing.defects().iter().any(|defect| {
+                let turned = if defect.race() == Race::Inner { shaft } else { 0.0 };
+                defect.profile().contains(angle - turned)
+            })
+        };
+        balls.into_iter().any(on)
+    });
+    let told = told.map(|own| {
+        let name = if own.label.is_empty() { "the bearing".to_owned() } else { format!("bearing {}", own.label) };
+        format!("a ball of {name} starts on a defect: it falls into it at the first instant, and the first samples ring; another bearing.first_ball_deg begins beside it")
+    });
+    told.collect()
+}
+
 /// Refuses what of a bearing only the model in the plane knows.
 fn refuse_plane_keys(case: &Case, seat: &Seat<'_>) -> Result<(), ComputeError> {
     let Some(bearing) = seat.bearing else { return Ok(()) };
@@ -122,7 +144,7 @@ fn refuse_plane_keys(case: &Case, seat: &Seat<'_>) -> Result<(), ComputeError> {
         ("balls_inertia", bearing.balls_inertia == Some(BallsInertia::QuasiStatic)),
         ("waviness", !bearing.waviness.is_empty()),
         ("ball_radius_differences", !bearing.ball_radius_differences.is_empty()),
-        ("defects", !bearing.defects.is_empty()),
+        ("defects", bearing.defects.iter().any(|defect| matches!(defect, Defect::Flat(_)))),
     ];
     match given.into_iter().find(|(_, given)| *given) {
         None => Ok(()),
@@ -173,7 +195,7 @@ fn setup_of(run: &SpatialCase<'_>, places: &[f64]) -> Result<SpatialSetup, Compu
     let mut bearings = Vec::with_capacity(places.len());
     for (seat, place) in run.seats.iter().zip(places) {
         let Some(asked) = seat.bearing else { continue };
-        let bearing = spatial_bearing(case, asked)?;
+        let bearing = with_defects(case, seat, asked, spatial_bearing(case, asked)?)?;
         let place = place - centre;
         let sign = bearing.thrust().sign();
         let offset = match (asked.preload, run.seats.len()) {
@@ -225,6 +247,26 @@ fn setup_of(run: &SpatialCase<'_>, places: &[f64]) -> Result<SpatialSetup, Compu
         bearings,
         gravity: [gx, gy, 0.0],
     })
+}
+
+/// A bearing with the dents and profiles that its grooves have.
+fn with_defects(
+    case: &Case,
+    seat: &Seat<'_>,
+    asked: &case::Bearing,
+    bearing: SpatialBearing,
+) -> Result<SpatialBearing, ComputeError> {
+    let geometry = *bearing.geometry();
+    let (profiles, _) = defects(&asked.defects, &geometry, stiffness(case, asked, &geometry)?)?;
+    let across = asked.defects.iter().map(|defect| match defect {
+        Defect::Dent(DentDefect { across: Some(place), width: Some(width), .. }) => {
+            Some(AcrossGroove { place: *place, width: *width })
+        }
+        // under the balls, whatever their contact angle
+        _ => None,
+    });
+    let defects = profiles.into_iter().zip(across).map(|(profile, across)| GrooveDefect { profile, across });
+    bearing.with_defects(defects.collect()).map_err(ComputeError::bearing(seat.key("bearing.defects: ")))
 }
 
 /// The cage of a bearing that without slip turns so many times in a turn of the shaft.

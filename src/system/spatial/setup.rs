@@ -80,7 +80,7 @@ impl SpatialSetup {
 
     /// Whether a part of a bearing is damaged.
     pub(crate) fn has_defects(&self) -> bool {
-        false
+        self.bearings.iter().any(|own| !own.bearing.defects().is_empty())
     }
 
     /// Generalised force on the shaft at `time` (s), N and N m, the weight included, the rotating unbalance not. Moments belong to the

@@ -13,6 +13,7 @@ use crate::app::commands::run::{InMemory, Simulation, Span};
 use crate::app::error::ComputeError;
 use crate::app::scene::structure::{MODELLED, complete_for};
 use crate::app::scene::{MachineScene, RunModel};
+use crate::bearing::Race;
 use crate::bearing::spatial::SpatialBearing;
 use crate::numerics::ode::Method;
 use crate::report::significant;
@@ -41,7 +42,14 @@ impl Stepped for MachineScene {
         let shaft = self.setup.bearings[0].cage.shaft();
         let at = |number: u32| asked.start + spare * f64::from(number) / f64::from(SPEEDS);
         let speed = |t: f64| shaft.motion(t).speed.abs();
-        (1..=SPEEDS).map(at).fold(asked.start, |best, t| if speed(t) > speed(best) { t } else { best })
+        let fastest = (1..=SPEEDS).map(at).fold(asked.start, |best, t| if speed(t) > speed(best) { t } else { best });
+        let bearings = self.setup.bearings.iter().zip(&self.orders);
+        let strikes = bearings.filter_map(|(own, orders)| {
+            let defect = own.bearing.defects().first()?;
+            pilot::next_on(defect.profile(), &own.cage, orders.cage, fastest)
+        });
+        let until = strikes.map(|(until, _)| until).fold(f64::INFINITY, f64::min);
+        if until <= spare - (fastest - asked.start) { fastest + until } else { fastest }
     }
 
     fn fastest_change(&self, asked: &case::Transient) -> Option<[f64; 2]> {
@@ -185,7 +193,7 @@ fn own_step(asked: &case::Transient, scene: &MachineScene, model: &RunModel) -> 
         fastest_ball(&own.bearing, largest)
     });
     let ball = BALL_PHASE / balls.fold(f64::MIN_POSITIVE, f64::max);
-    let limits = match model.method {
+    let mut limits = match model.method {
         Method::Dop853 { .. } => vec![(interval / 16.0, "sixteen samples an output interval")],
         Method::ExponentialAdams { .. } => vec![
             (
@@ -203,8 +211,29 @@ fn own_step(asked: &case::Transient, scene: &MachineScene, model: &RunModel) -> 
             (0.2 * ball, "a tenth of a radian of a ball between its races at ten times the largest load at rest"),
         ],
     };
+    limits.extend(shortest_pass(asked, scene).map(|pass| {
+        let why = "eight while a ball passes the shortest defect at the highest speed; halved where a tolerance asks for it";
+        (pass / stepping::STEPS_PER_PASS, why)
+    }));
     let shortest = limits.into_iter().min_by(|(a, _), (b, _)| a.total_cmp(b));
     shortest.unwrap_or((interval, "an output interval"))
+}
+
+/// The shortest time in which a ball passes a defect from end to end, s; `None` without one, or where nothing turns.
+fn shortest_pass(asked: &case::Transient, scene: &MachineScene) -> Option<f64> {
+    let passes = scene.setup.bearings.iter().zip(&scene.orders).flat_map(|(own, orders)| {
+        let shaft = own.cage.shaft().fastest(asked.start, asked.end);
+        let [least, most] = own.cage.slip.range();
+        own.bearing.defects().iter().map(move |defect| {
+            let along = match defect.race() {
+                Race::Outer => shaft * orders.cage * (1.0 - least),
+                Race::Inner => shaft * (1.0 - orders.cage * (1.0 - most)),
+            };
+            2.0 * defect.profile().contact_half_angle() / along
+        })
+    });
+    let shortest = passes.fold(f64::INFINITY, f64::min);
+    (shortest > 0.0 && shortest.is_finite()).then_some(shortest)
 }
 
 /// Angular frequency of a ball between its races at ten times a load (N), rad/s.

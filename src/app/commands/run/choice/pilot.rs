@@ -13,7 +13,8 @@ use crate::app::case;
 use crate::app::commands::run::{InMemory, RunEnd, Simulation, Span};
 use crate::app::error::ComputeError;
 use crate::app::scene::{RunModel, Scene};
-use crate::bearing::Race;
+use crate::bearing::defect::RaceDefect;
+use crate::bearing::{Cage, Race};
 use crate::numerics::ode::Method;
 use crate::numerics::series::TimeSeries;
 use crate::report::significant;
@@ -300,17 +301,21 @@ pub(crate) fn begin(asked: &case::Transient, scene: &Scene, spare: f64) -> f64 {
 /// in it leaves it. `None` without such a defect, or where balls do not pass it.
 pub(crate) fn next_strike(scene: &Scene, at: f64) -> Option<(f64, Option<f64>)> {
     let setup = &scene.setup;
-    let defect = setup.race_defects.first()?;
-    let cage = setup.cage.motion(at);
+    next_on(setup.race_defects.first()?, &setup.cage, setup.geometry.orders().cage, at)
+}
+
+/// The same of a defect and the balls of a cage of this order without slip.
+pub(crate) fn next_on(defect: &RaceDefect, cage: &Cage, cage_order: f64, at: f64) -> Option<(f64, Option<f64>)> {
+    let motion = cage.motion(at);
     // where the defect is, and how fast balls pass it
     let (turned, passing) = match defect.race() {
-        Race::Outer => (0.0, cage.speed),
-        Race::Inner => (setup.cage.shaft().angle(at), cage.speed - cage.speed / setup.geometry.orders().cage),
+        Race::Outer => (0.0, motion.speed),
+        Race::Inner => (cage.shaft().angle(at), motion.speed - motion.speed / cage_order),
     };
-    let ahead = (defect.angle() + turned - cage.angle) * passing.signum();
+    let ahead = (defect.angle() + turned - motion.angle) * passing.signum();
     let half = 1.5 * defect.contact_half_angle();
-    let edge = (ahead - half).rem_euclid(setup.cage.spacing);
-    let left = Some(edge + 2.0 * half - setup.cage.spacing).filter(|left| *left > 0.0);
+    let edge = (ahead - half).rem_euclid(cage.spacing);
+    let left = Some(edge + 2.0 * half - cage.spacing).filter(|left| *left > 0.0);
     (passing != 0.0).then(|| (edge / passing.abs(), left.map(|left| left / passing.abs())))
 }
 

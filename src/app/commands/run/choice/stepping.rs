@@ -243,7 +243,7 @@ fn resolved(model: &RunModel, scene: &Scene, system: &CoupledSystem) -> f64 {
 }
 
 /// Steps in which a ball passes a defect from end to end, or a wave from crest to crest.
-const STEPS_PER_PASS: f64 = 8.0;
+pub(crate) const STEPS_PER_PASS: f64 = 8.0;
 
 /// The longest step (s) that takes no ball over too much of a defect, flat or wave, at the highest speed of the run; `None` if
 /// there is none or nothing turns.
