@@ -5,12 +5,14 @@
 //! coordinates. Read `force.rs` first.
 
 mod balls;
+mod damage;
 mod energy;
 mod equilibrium;
 mod force;
 mod groove_lanes;
 mod pose;
 mod setup;
+mod springs;
 mod system;
 #[cfg(test)]
 mod tests;
