@@ -5,6 +5,7 @@
 //! coordinates. Read `force.rs` first.
 
 mod balls;
+mod damage;
 mod energy;
 mod equilibrium;
 mod force;
@@ -13,6 +14,7 @@ mod loaded;
 mod pose;
 mod setup;
 mod static_vectors;
+mod springs;
 mod system;
 #[cfg(test)]
 mod tests;

@@ -39,6 +39,8 @@ pub(super) struct Work {
     pub scratch_row: Vec<Lanes>,
     /// Cosine and sine of the shaft's angle.
     pub shaft_direction: [f64; 2],
+    /// Force that is evaluated for its overlaps alone.
+    pub force: Vec<f64>,
 }
 
 impl SpatialSystem {
@@ -93,6 +95,7 @@ impl SpatialSystem {
                 modal_force: of_modes(),
                 scratch_row: of_modes(),
                 shaft_direction: [1.0, 0.0],
+                force: Vec::new(),
             },
             setup,
         })
@@ -173,7 +176,7 @@ impl Simulated for SpatialSystem {
 
     fn find_powers(&self, now: &Instant<'_>, powers: &mut Powers) {
         let flow = self.flow(now, &mut powers.velocities, &mut powers.row);
-        powers.flows = [flow.loads, flow.rotation, flow.modal_damping, flow.contact_damping, 0.0];
+        powers.flows = [flow.loads, flow.rotation, flow.modal_damping, flow.contact_damping, flow.blending];
         powers.yielding.fill([0.0; 2]);
     }
 }
