@@ -13,8 +13,8 @@ mod groove_lanes;
 mod loaded;
 mod pose;
 mod setup;
-mod static_vectors;
 mod springs;
+mod static_vectors;
 mod system;
 #[cfg(test)]
 mod tests;

@@ -212,7 +212,8 @@ fn own_step(asked: &case::Transient, scene: &MachineScene, model: &RunModel) -> 
         ],
     };
     limits.extend(shortest_pass(asked, scene).map(|pass| {
-        let why = "eight while a ball passes the shortest defect at the highest speed; halved where a tolerance asks for it";
+        let why =
+            "eight while a ball passes the shortest defect at the highest speed; halved where a tolerance asks for it";
         (pass / stepping::STEPS_PER_PASS, why)
     }));
     let shortest = limits.into_iter().min_by(|(a, _), (b, _)| a.total_cmp(b));
