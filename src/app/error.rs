@@ -176,6 +176,14 @@ impl ComputeError {
         move |source| Self::wrong(format!("{place}{source}"))
     }
 
+    /// The same wrong input with the key that it is about.
+    pub(crate) fn of_key(self, key: &str) -> Self {
+        match self.is_input() {
+            true => Self::Input { what: format!("{key}: {self}"), help: self.help() },
+            false => self,
+        }
+    }
+
     /// The error of an interface without a free displacement.
     pub(crate) fn interface_held(nodes: &NodeInterface, model: &HousingModel) -> Self {
         Self::input(

@@ -35,7 +35,7 @@ impl<'a> Document<'a> {
         named_bearing::as_table(&mut root);
         for (index, argument) in source.set.iter().enumerate() {
             set::apply(&mut root, argument, Mark::Set(index))
-                .map_err(|rule| CaseError::at(format!("--set {argument}"), &rule).with_help(rule.help()))?;
+                .map_err(|rule| CaseError::at(set::told_argument(argument), &rule).with_help(rule.help()))?;
             named_bearing::as_table(&mut root);
         }
         let mut document = Self { source, root };
@@ -54,7 +54,7 @@ impl<'a> Document<'a> {
         let file = self.source.path.display();
         match mark {
             Some(Mark::Line(line)) => format!("{file}:{line}"),
-            Some(Mark::Set(index)) => format!("--set {}", self.source.set.get(index).map_or("", String::as_str)),
+            Some(Mark::Set(index)) => set::told_argument(self.source.set.get(index).map_or("", String::as_str)),
             None => file.to_string(),
         }
     }

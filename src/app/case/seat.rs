@@ -114,7 +114,8 @@ impl Case {
         for (index, seat) in seats.iter().enumerate() {
             let key = format!("bearings[{index}].label");
             if seat.label.trim().is_empty() || seat.label.chars().any(char::is_control) {
-                return Err(Rule::found("a label without visible characters", "a short name such as A").at(key));
+                let found = format!("{:?}", seat.label);
+                return Err(Rule::found(found, "a name on one line with visible characters, such as \"A\"").at(key));
             }
             if seats[..index].iter().any(|other| other.label == seat.label) {
                 return Err(

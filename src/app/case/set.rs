@@ -84,6 +84,16 @@ pub fn replaced_argument(arguments: &[String]) -> Option<[String; 2]> {
     None
 }
 
+/// An argument as messages show it.
+pub(super) fn told_argument(argument: &str) -> String {
+    format!("--set {}", on_one_line(argument))
+}
+
+/// A text with its line breaks as `\n`.
+fn on_one_line(text: &str) -> String {
+    text.replace('\r', "\\r").replace('\n', "\\n")
+}
+
 /// Splits `KEY=VALUE` at the first `=` outside quotes, spaces around both left out; `None` without one.
 #[must_use]
 pub(crate) fn split_argument(argument: &str) -> Option<(&str, &str)> {
@@ -108,7 +118,7 @@ fn read_value(text: &str, mark: Mark) -> Result<Node, Rule> {
     };
     if text.is_empty() || text.contains(['"', '\'', '[', ']', '{', '}', '\n']) {
         let expected = format!("a TOML value or a bare word: {}", fault.message);
-        return Err(Rule::found(format!("the value `{text}`"), &expected)
+        return Err(Rule::found(format!("the value `{}`", on_one_line(text)), &expected)
             .with_help("quote it twice: --set 'title=\"with {braces}\"'"));
     }
     Ok(Node { mark, value: Value::Text(text.to_owned()) })

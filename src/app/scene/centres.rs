@@ -23,11 +23,12 @@ impl Centres {
     /// [`ComputeError::Model`] for bores that have none, and that share nodes.
     pub(super) fn of(housing: &AssembledHousing, asked: &[case::Centre]) -> Result<Self, ComputeError> {
         let AssembledHousing { mesh, model, .. } = housing;
-        let node = |centre: &case::Centre| {
-            let node = CentreNode::new(mesh, model, &centre.group, centre.point, centre.tie)?;
+        let node = |(place, centre): (usize, &case::Centre)| {
+            let node = CentreNode::new(mesh, model, &centre.group, centre.point, centre.tie)
+                .map_err(|error| ComputeError::from(error).of_key(&format!("condense.interface.centres[{place}]")))?;
             Ok((centre.group.clone(), node))
         };
-        let nodes = asked.iter().map(node).collect::<Result<Vec<_>, ComputeError>>()?;
+        let nodes = asked.iter().enumerate().map(node).collect::<Result<Vec<_>, ComputeError>>()?;
         let parts: Vec<_> = nodes.iter().map(|(group, node)| (group.as_str(), node.partition())).collect();
         let partition = HousingPartition::joined(model, &parts)?;
         Ok(Self { nodes, partition })
@@ -104,5 +105,41 @@ impl RingsAndCentres {
     pub(super) fn attached(&self) -> Attached<'_> {
         let [stiffness, mass] = &self.of_rings;
         Attached { stiffness, mass }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::app::case::{Case, Source};
+    use crate::app::scene::CondensedHousing;
+    use crate::numerics::Unwatched;
+
+    fn refused(case: &Case) -> String {
+        let error = CondensedHousing::build(case, &Unwatched).unwrap_err();
+        assert!(error.is_input(), "{error}");
+        error.to_string()
+    }
+
+    #[test]
+    fn a_centre_that_cannot_be_is_named_by_its_key() {
+        let said = |centre: &str| {
+            let text = format!(
+                "[housing]\nmesh = \"ring_6_9_coarse.msh\"\nlength_unit = \"mm\"\n\
+                 plane = {{ assumption = \"stress\", thickness = 4e-3 }}\n\
+                 parts = [{{ group = \"housing\", material = \"steel\" }}]\n\
+                 [condense]\ninterface = {{ centres = [{centre}] }}\n"
+            );
+            let path = format!("{}/meshes/small.toml", env!("CARGO_MANIFEST_DIR"));
+            refused(&Case::from_source(Source { path: path.into(), text, set: Vec::new() }).unwrap())
+        };
+        let far = said("{ group = \"bore\", point = [1e200, 0, 0], tie = \"mean\" }");
+        assert!(far.starts_with("condense.interface.centres[0]: ") && far.contains("give `point` in m"), "{far}");
+    }
+
+    #[test]
+    fn the_tie_of_one_of_several_rings_is_named_by_its_key() {
+        let case = Case::example("housings/spindle_block", &["bearings[1].ring.outer_radius=6.5e-3"]);
+        let said = refused(&case);
+        assert!(said.starts_with("bearings[1].ring.tie: the tie finds no nodes"), "{said}");
     }
 }

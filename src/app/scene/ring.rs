@@ -9,7 +9,7 @@ use crate::fe::assembly::SystemMatrices;
 use crate::fe::material::{BeamSection, Bond, RingLayer};
 use crate::fe::mesh::Mesh;
 use crate::fe::model::{
-    Bore, HousingModel, HousingPartition, NodeInterface, Ring, RingFrame, RingSupport, RingTie, Rings,
+    Bore, HousingModel, HousingPartition, ModelError, NodeInterface, Ring, RingFrame, RingSupport, RingTie, Rings,
 };
 use crate::fe::reduction::Attached;
 use std::borrow::Cow;
@@ -37,10 +37,19 @@ pub(crate) fn rings_and_tie<'c>(
     let Some(bores) = seats.iter().map(|seat| tied(seat.ring)).collect::<Option<Vec<_>>>() else {
         return Ok((rings, None));
     };
-    let extents =
-        rings.seats().iter().zip(&bores).map(|(own, bore)| BoreExtent::of(mesh, model, &own.frame, bore.group));
+    let of_tie = |place: usize, error: ComputeError| match &seats[place] {
+        // messages about the only tie name its keys
+        seat if seat.label.is_empty() => error,
+        seat => error.of_key(&seat.key("ring.tie")),
+    };
+    let extents = rings.seats().iter().zip(&bores).enumerate().map(|(place, (own, bore))| {
+        BoreExtent::of(mesh, model, &own.frame, bore.group).map_err(|error| of_tie(place, error))
+    });
     let extents = extents.collect::<Result<Vec<_>, ComputeError>>()?;
-    let tie = RingTie::of_bores(mesh, model, &rings, &bores)?;
+    let tie = RingTie::of_bores(mesh, model, &rings, &bores).map_err(|error| match error {
+        ModelError::Bore { place, source } => of_tie(place, (*source).into()),
+        error => error.into(),
+    })?;
     for ((seat, bore), extent) in seats.iter().zip(&bores).zip(extents) {
         refuse_outside(case, seat, &format!("the bore \"{}\"", bore.group), extent.radii)?;
     }

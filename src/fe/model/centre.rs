@@ -31,6 +31,9 @@ use std::collections::BTreeMap;
 /// Spread of nodes across a line, relative to that along it, below which they lie in the line.
 const IN_LINE: f64 = 1e-6;
 
+/// Distance of a centre node from the mean of its bore, as a multiple of the bore's size, beyond which it is a slip of units.
+const FARTHEST: f64 = 1e3;
+
 /// How a centre node and the nodes of its bore move with each other.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
@@ -59,8 +62,8 @@ impl CentreNode {
     /// that node follow them.
     ///
     /// # Errors
-    /// [`ModelError::Refused`] for nodes that are fixed, tied by a link, too few or in a line, and a point that is not finite;
-    /// what finding the group reports.
+    /// [`ModelError::Refused`] for nodes that are fixed, tied by a link, too few or in a line, and a point that is not finite or
+    /// far away; what finding the group reports.
     pub fn new(
         mesh: &Mesh,
         housing: &HousingModel,
@@ -222,6 +225,14 @@ fn check_nodes(housing: &HousingModel, group: &str, nodes: &[usize], point: [f64
         return refused(format!(
             "all {} nodes of the bore \"{group}\" lie in one line, so that it says nothing about the rotation of its centre node round this line (root sum of squared distances {thin} m from the line, {wide} m along it): expected nodes round the bore",
             nodes.len()
+        ));
+    }
+    let (mean, size) = (mean_point(housing, nodes), wide / (nodes.len() as f64).sqrt());
+    let distance = (0..housing.dimension).map(|k| (point[k] - mean[k]).abs()).fold(0.0, f64::max);
+    if distance > FARTHEST * size {
+        let ([x, y, z], [distance, size]) = (point.map(Brief), [distance, size].map(Brief));
+        return refused(format!(
+            "the centre node ({x}, {y}, {z}) m is {distance} m from the bore \"{group}\" of {size} m: expected a point near it; give `point` in m"
         ));
     }
     Ok(())

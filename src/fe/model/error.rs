@@ -13,6 +13,14 @@ pub enum ModelError {
     /// What the mesh, the ring or the description breaks: the file, the place and what to do about it.
     #[error("{0}")]
     Refused(String),
+    /// One of several bores, by its place among them.
+    #[error("{source}")]
+    Bore {
+        /// From 0.
+        place: usize,
+        /// What is wrong with it.
+        source: Box<ModelError>,
+    },
 }
 
 impl ModelError {

@@ -110,7 +110,8 @@ impl RingTie {
         let mut ranges = Vec::new();
         for (place, (seat, bore)) in rings.seats().iter().zip(bores).enumerate() {
             let before = rows.driven.len();
-            rows.add(mesh, housing, seat, bore, place, bores)?;
+            rows.add(mesh, housing, seat, bore, place, bores)
+                .map_err(|source| ModelError::Bore { place, source: Box::new(source) })?;
             ranges.push(before..rows.driven.len());
         }
         let TieRows { driven, entries, of_node } = rows;

@@ -136,6 +136,34 @@ fn nodes_of_the_mesh_keep_their_numbers() {
     assert_eq!(read(&written(&record)).scalars, [9, 10]);
 }
 
+/// A node whose coordinates are along turned axes has them as its displacement system; the other one has the mesh's.
+#[test]
+fn turned_axes_are_a_displacement_system() {
+    let mut record = centres();
+    let axes = [[0.6, 0.8, 0.0], [0.0, 0.0, 1.0], [0.8, -0.6, 0.0]];
+    for (place, label) in record.interface.iter_mut().take(6).enumerate() {
+        label.axis = axes[place % 3];
+    }
+    let text = written(&record);
+    let lines: Vec<&str> = text.lines().filter(|line| !line.starts_with('$')).take(7).collect();
+    let fields = |line: &str| line.split_whitespace().map(str::to_owned).collect::<Vec<_>>();
+    // origin, a point on z, a point in the plane of z and x
+    assert!(lines[0].starts_with(&format!("{:<8}{:>WIDTH$}{:>WIDTH$}", "CORD2R*", 1, 0)), "{text}");
+    let values: Vec<f64> = [&lines[1][8..], &lines[2][8..]]
+        .iter()
+        .flat_map(|line| line.as_bytes().chunks(WIDTH))
+        .map(|part| number(std::str::from_utf8(part).expect("ascii")))
+        .collect();
+    assert_eq!(values, [0.0, 0.8, -0.6, 0.0, 0.6, 0.8, 0.0]);
+    assert_eq!(fields(lines[4]).last().map(String::as_str), Some("1"), "{text}");
+    assert_eq!(fields(lines[6]).len(), 2, "{text}");
+    // axes that are no right-handed system
+    record.interface.iter_mut().take(6).for_each(|label| label.axis[2] *= -1.0);
+    let folder = tempfile::tempdir().expect("a folder");
+    let error = write_superelement_dmig(&folder.path().join("a.bdf"), &record).expect_err("left-handed").to_string();
+    assert!(error.contains("right-handed axes of every node"), "{error}");
+}
+
 #[test]
 fn fields_hold_as_many_digits_as_fit() {
     for (value, expected) in [
@@ -168,7 +196,10 @@ fn refused(change: impl Fn(&mut DofLabel)) -> String {
 #[test]
 fn coordinates_that_no_grid_point_has_are_refused() {
     let turned = refused(|label| label.axis = [0.6, 0.8, 0.0]);
-    assert!(turned.contains("\"y\" of centre 0 along the mesh's axis") && turned.contains("(0.6, 0.8, 0)"), "{turned}");
+    assert!(turned.contains("displacements and rotations of centre 0 about the same axes"), "{turned}");
+    assert!(turned.contains("(0.6, 0.8, 0) and (0, 1, 0)"), "{turned}");
+    let short = refused(|label| label.axis = [0.6, 0.0, 0.0]);
+    assert!(short.contains("a unit vector for \"y\" of centre 0, found (0.6, 0, 0)"), "{short}");
     let polar = refused(|label| label.direction = DofDirection::Polar(0));
     assert!(polar.contains("\"radial\" of centre 0"), "{polar}");
     let nowhere = refused(|label| label.position = [f64::NAN; 3]);
