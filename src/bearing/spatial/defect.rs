@@ -103,7 +103,7 @@ impl DamagedGroove {
             None => None,
             Some(AcrossGroove { place, width }) => {
                 positive("width of a defect across the groove", width)?;
-                if !(place.abs() <= limit) {
+                if !(place.is_finite() && place.abs() <= limit) {
                     let rule = format!("m must be within {limit} m of the groove's bottom");
                     return refused("place of a defect across the groove", place, &rule);
                 }
@@ -112,8 +112,7 @@ impl DamagedGroove {
         };
         let beside = PolarPosition { radius: touching + side * PROBE, angle: profile.angle() + PI };
         let whole = profile.contacts(beside).pressing().next().copied().unwrap_or_default();
-        // also what is not a number is refused
-        if !((whole.delta - PROBE).abs() < 1e-6 * PROBE) {
+        if !(whole.delta.is_finite() && (whole.delta - PROBE).abs() < 1e-6 * PROBE) {
             let reason =
                 format!("a defect of the {race} race was solved for another bearing: give it this one's geometry");
             return Err(BearingError(reason));

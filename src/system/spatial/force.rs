@@ -248,10 +248,10 @@ impl BearingBalls {
             if damped {
                 let mut race = [[0.0; LANES]; 2];
                 let scale = *cage_speed / TAU;
-                for (component, table) in rows.iter().enumerate() {
-                    for lane in 0..balls {
+                for (component, (table, race)) in rows.iter().zip(&mut race).enumerate() {
+                    for (lane, race) in race.iter_mut().enumerate().take(balls) {
                         let at = places[component].get(lane);
-                        race[component][lane] = velocity(table, at, scale, work, lane, &group.rows[component]);
+                        *race = velocity(table, at, scale, work, lane, &group.rows[component]);
                     }
                 }
                 let normal = group.outer.normal;
@@ -290,9 +290,9 @@ impl BearingBalls {
         let (speed, count, per_radius) = (self.cage_speed, self.count, 1.0 / self.race_radius);
         for (number, group) in groups.iter_mut().enumerate() {
             let inside = damage.inside([&group.direction[0], &group.direction[1]]);
-            for lane in 0..LANES.min(count - number * LANES) {
+            for (lane, &inside) in inside.iter().enumerate().take(count - number * LANES) {
                 // the opposite would leave out what is not a number
-                if inside[lane] < 0.0 {
+                if inside < 0.0 {
                     continue;
                 }
                 let race = [0, 1].map(|k| {
@@ -364,9 +364,9 @@ impl BearingBalls {
                     // directions in the frame that turns with the shaft
                     let seen = [each(|l| out[0][l] * c + out[1][l] * s), each(|l| out[1][l] * c - out[0][l] * s)];
                     let inside = damage.inside([&seen[0], &seen[1]]);
-                    for lane in 0..LANES.min(self.count - number * LANES) {
+                    for (lane, &inside) in inside.iter().enumerate().take(self.count - number * LANES) {
                         // the opposite would leave out what is not a number
-                        if inside[lane] < 0.0 {
+                        if inside < 0.0 {
                             continue;
                         }
                         let [x, y, z] = [0, 1, 2].map(|k| moved[k][lane]);
