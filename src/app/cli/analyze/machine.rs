@@ -32,6 +32,8 @@ pub(super) struct Machine {
     pub(super) catalogue: Option<String>,
     /// Whether what a file states of its speed goes before what was typed.
     pub(super) own_first: bool,
+    /// The bearing of a run in space that is asked for: its label, and whether preload or thrust hold all its balls.
+    pub(super) of_run: Option<(String, bool)>,
 }
 
 impl Machine {
@@ -78,12 +80,13 @@ impl Machine {
             of_case: of_case.map(|setup| setup.cage.shaft().clone()),
             catalogue: catalogue.zip(asked.bearing.as_deref()).map(|(bearing, name)| described(bearing, name)),
             own_first: false,
+            of_run: None,
         })
     }
 
     /// One of the bearings of a run in space, at the orders that its results say.
     fn of_run_in_space(asked: &AnalyzeArguments, folder: &Path, case: &Case, label: &str) -> Result<Self, CliError> {
-        let rolling = orders_of_results(folder, label)?;
+        let (rolling, pressed) = bearing_of_results(folder, label)?;
         let orders = FaultOrders::of(&rolling, asked.geometry_error.unwrap_or(0.0)).map_err(ComputeError::from)?;
         Ok(Self {
             orders: Some(orders),
@@ -92,6 +95,7 @@ impl Machine {
             of_case: Some(crate::app::scene::bearing::speed(case)?),
             catalogue: None,
             own_first: false,
+            of_run: Some((label.to_owned(), pressed)),
         })
     }
 
@@ -176,7 +180,7 @@ fn own_speed(signal: &MeasuredSignal) -> Option<f64> {
 ///
 /// # Errors
 /// [`CliError`] where the run has several and none of them is named.
-pub(super) fn bearing_of_run(asked: &AnalyzeArguments, case: &Case) -> Result<Option<String>, CliError> {
+fn bearing_of_run(asked: &AnalyzeArguments, case: &Case) -> Result<Option<String>, CliError> {
     if asked.orders.is_some() || asked.balls.is_some() || case.in_space("`analyze`")?.is_none() {
         return Ok(None);
     }
@@ -194,8 +198,8 @@ pub(super) fn bearing_of_run(asked: &AnalyzeArguments, case: &Case) -> Result<Op
     }
 }
 
-/// The orders of a bearing that the results of a run say.
-fn orders_of_results(folder: &Path, label: &str) -> Result<DefectOrders, CliError> {
+/// The orders of a bearing that the results of a run say, and whether all its balls carry load at rest.
+fn bearing_of_results(folder: &Path, label: &str) -> Result<(DefectOrders, bool), CliError> {
     #[derive(serde::Deserialize)]
     struct Orders {
         cage: f64,
@@ -207,6 +211,7 @@ fn orders_of_results(folder: &Path, label: &str) -> Result<DefectOrders, CliErro
     struct OfBearing {
         label: String,
         defect_orders: Orders,
+        inner_force_n: Vec<f64>,
     }
     #[derive(serde::Deserialize)]
     struct Results {
@@ -218,11 +223,12 @@ fn orders_of_results(folder: &Path, label: &str) -> Result<DefectOrders, CliErro
     let results: Result<Results, _> = serde_json::from_str(&text);
     let results = results.map_err(|error| CliError::input(format!("{}: {error}", path.display())))?;
     let own = results.bearings.into_iter().find(|own| own.label == label);
-    let Some(OfBearing { defect_orders: Orders { cage, outer, inner, ball }, .. }) = own else {
+    let Some(OfBearing { defect_orders: Orders { cage, outer, inner, ball }, inner_force_n, .. }) = own else {
         let what = format!("{}: found no bearing \"{label}\", expected the orders of one", path.display());
         return Err(CliError::input(what).with_help("compute the run anew"));
     };
-    Ok(DefectOrders { cage, outer, inner, ball_spin: 0.5 * ball, ball_defect: ball })
+    let pressed = inner_force_n.iter().all(|force| *force > 0.0);
+    Ok((DefectOrders { cage, outer, inner, ball_spin: 0.5 * ball, ball_defect: ball }, pressed))
 }
 
 /// A case whose bearing stays in its plane, as orders at no contact angle do.

@@ -3,7 +3,7 @@
 //! Signals of a file, and all that nothing says of them.
 
 use super::AnalyzeArguments;
-use super::machine::{Machine, Named, bearing_of_run, in_the_plane, named_bearing};
+use super::machine::{Machine, Named, in_the_plane, named_bearing};
 use crate::app::case::{Case, EnvelopeBand, Purpose, ReportDetails};
 use crate::app::cli::earlier_results::{Wanted, case_of_results};
 use crate::app::cli::output::extend_new;
@@ -97,7 +97,7 @@ impl Source {
         }
         let of_baseline = asked.baseline_rate.is_some() && asked.baseline.as_deref() == Some(input);
         let option = if of_baseline { "--baseline-rate" } else { "--rate" };
-        let settings = settings(asked, case.as_ref().filter(|_| is_run));
+        let settings = settings(asked, case.as_ref().filter(|_| is_run), &machine);
         let mut assumptions = read.left_out;
         let mut doubts = Vec::new();
         for signal in &signals {
@@ -275,12 +275,13 @@ fn flaws_of(name: &str, series: &TimeSeries) -> Vec<String> {
 }
 
 /// Filter and windows: what was typed, else what the run's case says.
-fn settings(asked: &AnalyzeArguments, case: Option<&Case>) -> AnalysisSettings {
-    let label = case.and_then(|case| bearing_of_run(asked, case).ok().flatten());
-    let of_case = |case: &Case| {
-        let seats = case.seats();
-        let own = label.as_ref().and_then(|label| seats.iter().find(|seat| seat.label == *label)?.bearing);
-        AnalysisSettings::of(case, own.or(case.bearing.as_ref()))
+fn settings(asked: &AnalyzeArguments, case: Option<&Case>, machine: &Machine) -> AnalysisSettings {
+    let of_case = |case: &Case| match &machine.of_run {
+        None => AnalysisSettings::of(case, case.bearing.as_ref(), false),
+        Some((label, pressed)) => {
+            let own = case.seats().into_iter().find(|seat| seat.label == *label);
+            AnalysisSettings::of(case, own.and_then(|seat| seat.bearing), *pressed)
+        }
     };
     let mut settings = case.map(of_case).unwrap_or_default();
     if !asked.window.is_empty() {

@@ -51,16 +51,16 @@ pub struct AnalysisSettings {
 }
 
 impl AnalysisSettings {
-    /// What a case asks for, of one of its bearings.
+    /// What a case asks for, of one of its bearings; `pressed` where preload or thrust hold all its balls, whatever its play.
     #[must_use]
-    pub(crate) fn of(case: &Case, bearing: Option<&Bearing>) -> Self {
+    pub(crate) fn of(case: &Case, bearing: Option<&Bearing>, pressed: bool) -> Self {
         Self {
             band: AskedBand::of(case),
             shown_band: None,
             whiten: case.analysis.whiten,
             windows: case.analysis.envelope.clone(),
             good_to_hz: good_to_hz(case),
-            no_signs: no_signs(case, bearing),
+            no_signs: no_signs(case, bearing, pressed),
         }
     }
 
@@ -436,11 +436,12 @@ const STRIKING_LOAD: f64 = 7500.0;
 const STANDARD_GRAVITY: f64 = 9.80665;
 
 /// Why lines of a part are no sign of damage in a simulated bearing: the case has no damage there, or the load is too large to tell.
-pub(crate) fn no_signs(case: &Case, bearing: Option<&Bearing>) -> Vec<(Fault, bool, String)> {
+pub(crate) fn no_signs(case: &Case, bearing: Option<&Bearing>, pressed: bool) -> Vec<(Fault, bool, String)> {
     let Some(bearing) = bearing else {
         return Vec::new();
     };
-    let play = (bearing.play() > 0.0).then(|| format!("the play is {} µm", significant(1e6 * bearing.play(), 2)));
+    let play =
+        (bearing.play() > 0.0 && !pressed).then(|| format!("the play is {} µm", significant(1e6 * bearing.play(), 2)));
     let damaged = bearing.defects.iter().map(|defect| match defect {
         Defect::Dent(DentDefect { on, .. }) | Defect::Measured(MeasuredDefect { on, .. }) => match on {
             Race::Outer => Fault::OuterRace,

@@ -227,7 +227,7 @@ impl<R: Recording> RunResult<R> {
     fn analyse(&mut self, case: &Case) {
         let bearings = self.machine.bearings();
         for (bearing, seat) in bearings.iter().zip(case.seats()) {
-            let settings = AnalysisSettings::of(case, seat.bearing);
+            let settings = AnalysisSettings::of(case, seat.bearing, bearing.pressed);
             let kinematics = Kinematics::of(bearing.cage, bearing.balls, bearing.orders);
             for (index, name) in self.simulation.record.layout().sensors.iter().enumerate() {
                 let read = |window, margin| self.simulation.stretch(index, window, margin);

@@ -56,6 +56,8 @@ pub(crate) struct BearingMotion<'a> {
     pub balls: u32,
     /// Orders without slip.
     pub orders: DefectOrders,
+    /// Whether preload or thrust hold all its balls.
+    pub pressed: bool,
 }
 
 impl BearingModel {
@@ -125,14 +127,15 @@ impl Machine {
             Self::InPlane(machine) => {
                 let setup = &machine.scene.setup;
                 let (balls, orders) = (setup.geometry.balls(), setup.geometry.orders());
-                vec![BearingMotion { label: "", cage: &setup.cage, balls, orders }]
+                vec![BearingMotion { label: "", cage: &setup.cage, balls, orders, pressed: false }]
             }
             Self::InSpace(machine) => {
                 let scene = &machine.scene;
-                let bearings = scene.setup.bearings.iter().zip(&scene.orders);
-                let bearings = bearings.map(|(own, orders)| {
+                let bearings = scene.setup.bearings.iter().zip(&scene.orders).zip(&scene.equilibrium.bearings);
+                let bearings = bearings.map(|((own, orders), at_rest)| {
                     let balls = own.bearing.geometry().balls();
-                    BearingMotion { label: &own.label, cage: &own.cage, balls, orders: *orders }
+                    let pressed = at_rest.iter().all(|ball| ball.load[0] > 0.0 && ball.load[1] > 0.0);
+                    BearingMotion { label: &own.label, cage: &own.cage, balls, orders: *orders, pressed }
                 });
                 bearings.collect()
             }

@@ -1,7 +1,7 @@
 //! The model of a shaft in several bearings, or in one that carries axial load: its modes by comparison.
 //!
 //! The linear estimates of the bearing in its plane know radial contacts alone. Here a stretch is stepped with some modes and with four times
-//! as many, until both agree within the target: the modes left out have no static residual, so that their number is larger.
+//! as many, and with static vectors that lack a sixteenth as much, until both agree within the target.
 
 use super::model_choice::{ChosenPart, ModelChoice};
 use super::pilot::{self, Asked, Stepped};
@@ -11,7 +11,7 @@ use super::stepping::{self, step_or};
 use crate::app::case::{self, Case, ModesKept};
 use crate::app::commands::run::{InMemory, Simulation, Span};
 use crate::app::error::ComputeError;
-use crate::app::scene::structure::{MODELLED, complete_for};
+use crate::app::scene::structure::complete_for;
 use crate::app::scene::{MachineScene, RunModel};
 use crate::bearing::Race;
 use crate::bearing::spatial::SpatialBearing;
@@ -20,7 +20,8 @@ use crate::report::significant;
 use crate::system::{BallsInertia, ModeSelection};
 use std::f64::consts::TAU;
 
-/// Fewest modes that are tried.
+/// The modes that are tried first: up to so many times the band, and at least so many.
+const BEGIN: f64 = 1.5;
 const FEWEST: usize = 12;
 
 /// Part of the target that modes and steps may take, as the stretch shows them.
@@ -92,7 +93,7 @@ impl ModelChoice {
             ModesKept::Count(count) => count.min(known),
             ModesKept::Auto => {
                 let modes = &scene.stage.modes;
-                (0..known).filter(|mode| modes.frequency_hz(*mode) <= MODELLED * band_hz).count().max(FEWEST).min(known)
+                (0..known).filter(|mode| modes.frequency_hz(*mode) <= BEGIN * band_hz).count().max(FEWEST).min(known)
             }
         };
         let planned = |kept: usize| -> Result<(RunModel, ChosenPart, ChosenPart), ComputeError> {
