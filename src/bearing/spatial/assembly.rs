@@ -323,7 +323,7 @@ impl SpatialBearing {
     ///
     /// # Errors
     /// [`BearingError`] for a force that is negative or not finite, or that no displacement below the groove's radius carries.
-    pub fn axial_displacement(&self, force: f64) -> Result<f64, BearingError> {
+    pub(crate) fn axial_displacement(&self, force: f64) -> Result<f64, BearingError> {
         if !(force.is_finite() && force >= 0.0) {
             return refused("axial force", force, "N must be finite and zero or more");
         }

@@ -69,7 +69,7 @@ pub struct SpatialCondition {
 
 impl SpatialCondition {
     /// As they are at `time` (s); the rotating unbalance is not included.
-    pub fn at(setup: &SpatialSetup, time: f64) -> Self {
+    pub(crate) fn at(setup: &SpatialSetup, time: f64) -> Self {
         let motions: Vec<_> = setup.bearings.iter().map(|own| own.cage.motion(time)).collect();
         Self {
             time,

@@ -29,7 +29,7 @@ impl SpatialSystem {
     ///
     /// # Errors
     /// [`SystemError::Linalg`] if the eigenvalues are not found.
-    pub fn loaded_modes(&self, rest: &State) -> Result<LoadedModes, SystemError> {
+    pub(crate) fn loaded_modes(&self, rest: &State) -> Result<LoadedModes, SystemError> {
         let n = rest.y.len();
         let matrix = self.linearised(rest);
         let spectrum = general_spectrum(&matrix)?;

@@ -74,7 +74,7 @@ pub struct SpatialSetup {
 
 impl SpatialSetup {
     /// Balls of all bearings.
-    pub fn balls(&self) -> usize {
+    pub(crate) fn balls(&self) -> usize {
         self.bearings.iter().map(|bearing| bearing.bearing.balls()).sum()
     }
 

@@ -101,11 +101,6 @@ impl SpatialSystem {
         })
     }
 
-    /// The shaft and its bearings.
-    pub fn setup(&self) -> &SpatialSetup {
-        &self.setup
-    }
-
     /// First coordinate of the balls of each bearing, with their number.
     pub(super) fn ball_ranges(&self) -> impl Iterator<Item = (usize, usize)> + '_ {
         let first = self.modes + SHAFT;
@@ -119,7 +114,7 @@ impl SpatialSystem {
 
 impl SpatialSystem {
     /// State at rest in an equilibrium, the cages held at their angles at `t` (s).
-    pub fn state_at(&self, t: f64, equilibrium: &SpatialEquilibrium, modes: &StructureModes) -> State {
+    pub(crate) fn state_at(&self, t: f64, equilibrium: &SpatialEquilibrium, modes: &StructureModes) -> State {
         let amplitudes = (0..self.modes)
             .map(|mode| modes.participation(mode, &equilibrium.structure_load) / modes.squared_frequencies[mode]);
         let mut y: Vec<f64> = amplitudes.chain(equilibrium.shaft).collect();

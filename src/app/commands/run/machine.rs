@@ -74,7 +74,7 @@ impl BearingModel {
 
 impl Machine {
     /// Ring and housing.
-    pub fn stage(&self) -> &CoupledStructure {
+    pub(crate) fn stage(&self) -> &CoupledStructure {
         match self {
             Self::InPlane(machine) => &machine.scene.stage,
             Self::InSpace(machine) => &machine.scene.stage,
@@ -90,7 +90,7 @@ impl Machine {
     }
 
     /// The shaft in space, if it is one.
-    pub fn in_space(&self) -> Option<&MachineScene> {
+    pub(crate) fn in_space(&self) -> Option<&MachineScene> {
         match self {
             Self::InPlane(_) => None,
             Self::InSpace(machine) => Some(&machine.scene),
@@ -98,7 +98,7 @@ impl Machine {
     }
 
     /// Modes linearised where it rests.
-    pub fn loaded(&self) -> &LoadedModes {
+    pub(crate) fn loaded(&self) -> &LoadedModes {
         match self {
             Self::InPlane(machine) => &machine.loaded,
             Self::InSpace(machine) => &machine.loaded,
