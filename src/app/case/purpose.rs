@@ -273,7 +273,7 @@ impl Case {
     fn at_rest(&self, by: &str) -> Result<(&Ring, &Bearing, &Shaft), CaseError> {
         if !self.bearings.is_empty() {
             let what = format!("{by} takes one bearing, found [[bearings]] with {}", self.bearings.len());
-            let help = "write one of them as [ring] and [bearing]; `modes`, `condense` and `frf` take several";
+            let help = "write one of them as [ring] and [bearing]; `run`, `modes`, `condense` and `frf` take several";
             return Err(CaseError::at(self.source.path.display(), what).with_help(Some(help.to_owned())));
         }
         self.in_the_plane()?;

@@ -1,7 +1,7 @@
 //! Modes of a shaft in its bearings, linearised where it rests: gyroscopic moment, friction and damping included.
 //!
 //! ```text
-//! y'' = g(y, y') - O^2 y - D y',   A = [0, I; dg/dy - O^2, dg/dy' - D],   A x = lambda x
+//! y'' = g(y, y') - O^2 y - D y',   A = [0, s I; (dg/dy - O^2) / s, dg/dy' - D],   A (y, y'/s) = lambda (y, y'/s)
 //! ```
 //!
 //! The derivatives are central differences of the force that a run steps. With the cages held where they are the modes are those of an instant.
@@ -51,9 +51,11 @@ impl SpatialSystem {
         Ok(LoadedModes { modes, without_stiffness: without_stiffness / 2, unstable })
     }
 
-    /// A [2n x 2n].
+    /// A [2n x 2n], with the highest frequency as s, which makes its entries of one size.
     fn linearised(&self, rest: &State) -> DenseMatrix {
         let (n, modes) = (rest.y.len(), self.modes);
+        let squares = self.linear.iter().map(|linear| linear.squared_frequency);
+        let scale = squares.fold(1.0, f64::max).sqrt();
         let mut system = self.clone();
         let mut force_at = |y: &[f64], v: &[f64]| {
             let mut force = vec![0.0; n];
@@ -76,11 +78,11 @@ impl SpatialSystem {
             let by_place = [step, -step].map(|by| force_at(&moved(by, &rest.y), &rest.v));
             let by_speed = [OF_VELOCITY, -OF_VELOCITY].map(|by| force_at(&rest.y, &moved(by, &rest.v)));
             for row in 0..n {
-                matrix[(n + row, column)] = (by_place[0][row] - by_place[1][row]) / (2.0 * step);
+                matrix[(n + row, column)] = (by_place[0][row] - by_place[1][row]) / (2.0 * step * scale);
                 matrix[(n + row, n + column)] = (by_speed[0][row] - by_speed[1][row]) / (2.0 * OF_VELOCITY);
             }
-            matrix[(column, n + column)] = 1.0;
-            matrix[(n + column, column)] -= self.linear[column].squared_frequency;
+            matrix[(column, n + column)] = scale;
+            matrix[(n + column, column)] -= self.linear[column].squared_frequency / scale;
             matrix[(n + column, n + column)] -= self.linear[column].damping;
         }
         matrix

@@ -16,7 +16,7 @@ use crate::fe::model::{Ring, RingFrame, RingSupport, Rings, SpringShare};
 use crate::fe::reduction::frf::ModalDamping;
 use crate::numerics::ode::{Instant, Method, Observer, Schedule, SecondOrderSystem, State, Stepping, integrate};
 use crate::system::{
-    BallsInertia, BearingSetup, CoupledSystem, EnergyMeter, Equilibrium, Formulation, LoadProfile, ModeSelection,
+    BallsInertia, BearingSetup, CoupledSystem, EnergyMeter, Equilibrium, Formulation, LoadProfile, LoadedModes, ModeSelection,
     Shaft, StaticCondition, Structure, StructureModes,
 };
 use std::f64::consts::TAU;
@@ -236,6 +236,36 @@ fn in_the_plane_it_is_the_plane_system() {
             assert!(found.y[m + 12 + ball].abs() < 1e-18);
         }
     }
+}
+
+/// Modes by differences of the force: every one of the plane system is there, and the others are across the plane.
+#[test]
+fn loaded_modes_in_the_plane_are_those_of_the_plane_system() {
+    let Twins { plane: (of_plane, _, rest), spatial: (mut spatial, state, _) } = Twins::new(ModeSelection::All, &[]);
+    let structure = Structure::ring_alone(ring(false, 1.0), [0.0, -9.81]);
+    let modes = structure.modes().unwrap();
+    let expected = LoadedModes::at(&structure, &modes, of_plane.setup(), &rest).unwrap();
+    // the plane's are without damping
+    spatial.linear.iter_mut().for_each(|linear| linear.damping = 0.0);
+    spatial.setup.bearings[0].contact_damping = 0.0;
+    let law = &mut spatial.bearings[0];
+    (law.inner.damping, law.outer.damping) = (0.0, 0.0);
+    let found = spatial.loaded_modes(&state).unwrap();
+    assert_eq!((expected.unstable, found.unstable), (0, 0));
+    let nearest = |hz: f64| {
+        let apart = |mode: &crate::system::LoadedMode| (mode.frequency_hz / hz - 1.0).abs();
+        found.modes.iter().min_by(|a, b| apart(a).total_cmp(&apart(b))).unwrap()
+    };
+    let mut worst = 0.0_f64;
+    for mode in &expected.modes {
+        let own = nearest(mode.frequency_hz);
+        worst = worst.max((own.frequency_hz / mode.frequency_hz - 1.0).abs());
+        assert!((own.shaft_share - mode.shaft_share).abs() < 1e-4, "{own:?} {mode:?}");
+    }
+    println!("{} modes of {}: {worst:e}", expected.modes.len(), found.modes.len());
+    // central differences over a ten-thousandth of the overlap: 1e-8 of the stiffness, and round-off of forces over them
+    assert!(worst < 1e-6, "{worst:e}");
+    assert!(found.modes.len() > expected.modes.len() + 7);
 }
 
 /// Dents over the whole groove are those of the plane system: balls run into them and out again.
