@@ -16,8 +16,8 @@ use crate::fe::model::{Ring, RingFrame, RingSupport, Rings, SpringShare};
 use crate::fe::reduction::frf::ModalDamping;
 use crate::numerics::ode::{Instant, Method, Observer, Schedule, SecondOrderSystem, State, Stepping, integrate};
 use crate::system::{
-    BallsInertia, BearingSetup, CoupledSystem, EnergyMeter, Equilibrium, Formulation, LoadProfile, LoadedModes, ModeSelection,
-    Shaft, StaticCondition, Structure, StructureModes,
+    BallsInertia, BearingSetup, CoupledSystem, EnergyMeter, Equilibrium, Formulation, LoadProfile, LoadedModes,
+    ModeSelection, Shaft, StaticCondition, Structure, StructureModes,
 };
 use std::f64::consts::TAU;
 

@@ -4,9 +4,9 @@
 //! as many, and with static vectors that lack a sixteenth as much, until both agree within the target.
 
 use super::model_choice::{ChosenPart, ModelChoice};
-use super::pilot::{self, Asked, Stepped};
+use super::pilot::{self, Stepped};
 use super::plan::{IMPACTS_GROWTH, together, vectors};
-use super::quantities::{IMPACT, USUAL_BAND, tangent};
+use super::quantities::{Asked, IMPACT, USUAL_BAND, tangent};
 use super::stepping::{self, step_or};
 use crate::app::case::{self, Case, ModesKept};
 use crate::app::commands::run::{InMemory, Simulation, Span};

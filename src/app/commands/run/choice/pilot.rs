@@ -7,7 +7,7 @@
 //! square of the step where contacts are smooth, and with the step at least. A method without a tolerance is measured by one with it.
 
 use super::model_choice::Measured;
-use super::quantities::{RunTask, fastest_change};
+use super::quantities::{Asked, RunTask, fastest_change};
 use super::stepping::{self, ADAMS_ORDER};
 use crate::app::case;
 use crate::app::commands::run::{InMemory, RunEnd, Simulation, Span};
@@ -52,16 +52,6 @@ impl Stepped for Scene {
     fn fastest_change(&self, asked: &case::Transient) -> Option<[f64; 2]> {
         fastest_change(asked, self)
     }
-}
-
-/// What a stretch is asked for.
-#[derive(Clone, Copy)]
-pub(crate) struct Asked<'a> {
-    pub transient: &'a case::Transient,
-    /// Top of the band, Hz.
-    pub band_hz: f64,
-    /// Whether balls strike.
-    pub strikes: bool,
 }
 
 /// Length of the stretch, s and in periods of the band's highest frequency: the filter to the band needs 26.

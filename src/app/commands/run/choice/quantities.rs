@@ -1,7 +1,6 @@
 //! Quantities of a scene that several estimates use: forces to prepare for, the equilibrium under the heaviest load, the fastest change of
 //! the loads, a ball's vibration, participations of modes.
 
-use super::pilot::Asked;
 use crate::app::case;
 use crate::app::error::ComputeError;
 use crate::app::scene::Scene;
@@ -30,6 +29,16 @@ pub(crate) struct RunTask<'a> {
     pub target: f64,
     /// The instant (s) of the heaviest load and the equilibrium under it; `None` where nothing is heavier than at the start.
     pub heaviest: Option<&'a (f64, Equilibrium)>,
+}
+
+/// What a stretch is asked for.
+#[derive(Clone, Copy)]
+pub(crate) struct Asked<'a> {
+    pub transient: &'a case::Transient,
+    /// Top of the band, Hz.
+    pub band_hz: f64,
+    /// Whether balls strike.
+    pub strikes: bool,
 }
 
 impl<'a> RunTask<'a> {
