@@ -164,19 +164,20 @@ fn summary<R: Recording>(case: &Case, result: &RunResult<R>, wall_s: f64) -> Str
     let simulation = &result.simulation;
     let mut lines = vec![bearing_part(&result.machine).plain()];
     lines.push(format!(
-        "{} s simulated in {} s, with model, choice and report {} s: {} steps of {} ({}), {} of {} modes{}, {} s of computing per simulated second",
+        "{} s simulated in {} s, with model, choice and report {} s: {} steps of {} ({}), {}, {} s of computing per simulated second",
         significant(simulation.simulated_s, 4),
         significant(simulation.stepping_s, 3),
         significant(wall_s, 3),
         simulation.statistics.steps,
         quantity(simulation.step_s(), "s"),
         simulation.method.name(),
-        simulation.modes,
-        result.machine.stage().structure.dof(),
-        if simulation.residual { " with static residual" } else { "" },
+        result.kept_words(),
         cost(simulation.realtime_factor()),
     ));
     lines.push(result.estimate_sentence());
+    if result.machine.in_space().is_some() && !result.windows.is_empty() {
+        lines.push(format!("verdict on the machine: {}", result.verdict_on_machine()));
+    }
     for window in result.windows.iter().take(SHOWN_WINDOWS) {
         let [rms, peak] = [window.rms, window.peak].map(|value| significant(value, 3));
         let mut said = verdict_lines(window, |window| not_shown(case, window));

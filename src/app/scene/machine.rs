@@ -9,12 +9,13 @@ use crate::app::case::{self, Case, Defect, DentDefect, Preload, Rule, Seat, Spat
 use crate::app::error::ComputeError;
 use crate::app::scene::RunModel;
 use crate::bearing::kinematics::DefectOrders;
-use crate::bearing::spatial::{AcrossGroove, GrooveDefect, SpatialBearing};
+use crate::bearing::spatial::{AcrossGroove, GrooveDefect, SpatialBearing, Thrust};
 use crate::bearing::{Cage, Race};
 use crate::fe::model::RingSeat;
 use crate::fe::reduction::frf::ModalDamping;
 use crate::numerics::Watch;
 use crate::numerics::ode::State;
+use crate::report::significant;
 use crate::system::{
     BallsInertia, BearingInPlace, Formulation, LoadProfile, LoadedModes, ModeSelection, SpatialBallLoad,
     SpatialCondition, SpatialEquilibrium, SpatialLoad, SpatialSetup, SpatialShaft, SpatialSystem, StructureModes,
@@ -30,7 +31,7 @@ const OFF_LINE: f64 = 1e-7;
 const OFF_AXIS: f64 = 1e-6;
 
 /// A shaft in its bearings in their housing, and the equilibrium that a simulation starts from.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub struct MachineScene {
     /// The linear model with its modes.
     pub stage: CoupledStructure,
@@ -73,12 +74,21 @@ impl MachineScene {
         let orders = turn_by_the_angles_in_force(run, [start, end], &stage, &mut setup)?;
         let condition = SpatialCondition::at(&setup, start);
         let equilibrium = SpatialEquilibrium::find(&stage.structure, &setup, &condition)?;
+        refuse_other_shoulder(case, &run.seats, &setup, &equilibrium)?;
         let mut doubts = doubts(case, stage.bodies.mesh_and_model(), None)?;
         if equilibrium.directions_down > 0 {
             doubts.push("the equilibrium that the run starts from is not stable: the shaft leaves it at the smallest push; other loads, more preload or another bearing.first_ball_deg start from a stable one".to_owned());
         }
         doubts.extend(starts_in_damage(&setup, start));
         Ok(Self { stage, setup, orders, damping: damping(case)?, start, equilibrium, doubts })
+    }
+
+    /// The same with a bearing whose grooves are whole.
+    pub(crate) fn without_damage(&self, bearing: usize) -> Self {
+        let mut scene = self.clone();
+        let own = &mut scene.setup.bearings[bearing];
+        own.bearing = own.bearing.clone().without_defects();
+        scene
     }
 
     /// Modes linearised at the equilibrium, of all modes of the structure that are known.
@@ -119,6 +129,30 @@ impl MachineScene {
     }
 }
 
+/// Refuses a bearing that is pushed against the way in which it holds thrust: it would come apart, and the model has the other shoulder.
+fn refuse_other_shoulder(
+    case: &Case,
+    seats: &[Seat<'_>],
+    setup: &SpatialSetup,
+    rest: &SpatialEquilibrium,
+) -> Result<(), ComputeError> {
+    for ((seat, own), balls) in seats.iter().zip(&setup.bearings).zip(&rest.bearings) {
+        let along: f64 = balls.iter().map(|ball| ball.load[0] * ball.contact_angle[0].unwrap_or(0.0).sin()).sum();
+        let thrust = own.bearing.thrust();
+        if thrust != Thrust::Both && along * thrust.sign() < 0.0 {
+            let rule = Rule::found(
+                format!(
+                    "{} N of thrust at rest against the way in which the bearing holds it",
+                    significant(along.abs(), 3)
+                ),
+                "bearings that hold each other: thrust both ways, or preload above the axial load",
+            );
+            return Err(case.broken(&rule.at(seat.key("bearing.thrust"))).into());
+        }
+    }
+    Ok(())
+}
+
 /// That a ball starts on a defect, a sentence a bearing: the rest that a run begins with is one on whole races.
 fn starts_in_damage(setup: &SpatialSetup, start: f64) -> Vec<String> {
     let told = setup.bearings.iter().filter(|own| {
@@ -153,7 +187,10 @@ fn refuse_plane_keys(case: &Case, seat: &Seat<'_>) -> Result<(), ComputeError> {
     match given.into_iter().find(|(_, given)| *given) {
         None => Ok(()),
         Some((key, _)) => {
-            let rule = Rule::found("what only the bearing in its plane knows", "none beside axial load or tilt");
+            let rule = Rule::found(
+                "a key of the bearing in its plane",
+                "none where the shaft has several bearings, axial load or a contact angle",
+            );
             Err(case.broken(&rule.at(seat.key(&format!("bearing.{key}")))).into())
         }
     }

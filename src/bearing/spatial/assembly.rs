@@ -142,6 +142,12 @@ impl SpatialBearing {
         Ok(self)
     }
 
+    /// The same bearing with whole grooves.
+    #[must_use]
+    pub(crate) fn without_defects(self) -> Self {
+        Self { defects: Vec::new(), ..self }
+    }
+
     /// Its defects.
     pub(crate) fn defects(&self) -> &[DamagedGroove] {
         &self.defects

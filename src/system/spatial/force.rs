@@ -17,7 +17,7 @@ use super::springs::find_own_springs;
 use super::system::{SpatialSystem, Work};
 use crate::bearing::RotationState;
 use crate::numerics::lanes::{self, LANES, Lanes, each, positive, total};
-use crate::numerics::ode::{Divergence, LinearCoordinate, SecondOrderSystem, all_finite};
+use crate::numerics::ode::{Divergence, LinearCoordinate, SecondOrderSystem, Tangent, all_finite};
 use crate::system::raceway::{Place, RacewayTable, reduced_turn};
 use crate::system::turning::directions;
 use multiversion::multiversion;
@@ -82,6 +82,20 @@ impl SecondOrderSystem for SpatialSystem {
         for (event, overlap) in events.iter_mut().zip(overlaps) {
             *event = overlap;
         }
+    }
+
+    /// By differences, column by column: for limits of steps and for implicit methods, which take no time to speak of from it.
+    fn tangent_into(&mut self, t: f64, y: &[f64], v: &[f64], tangent: &mut Tangent) {
+        let [by_place, by_speed] = self.derivatives(t, y, v);
+        for (columns, of_speed) in [(by_place, false), (by_speed, true)] {
+            for column in 0..y.len() {
+                let term = tangent.add();
+                term.left.copy_from_slice(columns.col_as_slice(column));
+                let row = if of_speed { term.velocity } else { term.position };
+                row[column] = 1.0;
+            }
+        }
+        evaluate(self, t, y, v, &mut vec![0.0; y.len()]);
     }
 
     fn next_change(&self, t: f64) -> f64 {

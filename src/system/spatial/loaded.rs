@@ -53,16 +53,29 @@ impl SpatialSystem {
 
     /// A [2n x 2n], with the highest frequency as s, which makes its entries of one size.
     fn linearised(&self, rest: &State) -> DenseMatrix {
-        let (n, modes) = (rest.y.len(), self.modes);
+        let n = rest.y.len();
         let squares = self.linear.iter().map(|linear| linear.squared_frequency);
         let scale = squares.fold(1.0, f64::max).sqrt();
-        let mut system = self.clone();
-        let mut force_at = |y: &[f64], v: &[f64]| {
-            let mut force = vec![0.0; n];
-            system.force_into(rest.t, y, v, &mut force);
-            force
-        };
+        let [by_place, by_speed] = self.clone().derivatives(rest.t, &rest.y, &rest.v);
         let mut matrix = DenseMatrix::zeros(2 * n, 2 * n);
+        for column in 0..n {
+            for row in 0..n {
+                matrix[(n + row, column)] = by_place[(row, column)] / scale;
+                matrix[(n + row, n + column)] = by_speed[(row, column)];
+            }
+            matrix[(column, n + column)] = scale;
+            matrix[(n + column, column)] -= self.linear[column].squared_frequency / scale;
+            matrix[(n + column, n + column)] -= self.linear[column].damping;
+        }
+        matrix
+    }
+
+    /// dg/dy and dg/dy' [n x n] by central differences, at `t` (s).
+    pub(super) fn derivatives(&mut self, t: f64, y: &[f64], v: &[f64]) -> [DenseMatrix; 2] {
+        let (n, modes) = (y.len(), self.modes);
+        let mut found = [(); 2].map(|()| DenseMatrix::zeros(n, n));
+        let (mut y, mut v) = (y.to_vec(), v.to_vec());
+        let mut forces = [(); 2].map(|()| vec![0.0; n]);
         for column in 0..n {
             let step = match column {
                 mode if mode < modes => OF_MODE,
@@ -70,22 +83,19 @@ impl SpatialSystem {
                 tilt if tilt < modes + SHAFT => OF_TILT,
                 _ => OF_LENGTH,
             };
-            let moved = |by: f64, values: &[f64]| {
-                let mut values = values.to_vec();
-                values[column] += by;
-                values
-            };
-            let by_place = [step, -step].map(|by| force_at(&moved(by, &rest.y), &rest.v));
-            let by_speed = [OF_VELOCITY, -OF_VELOCITY].map(|by| force_at(&rest.y, &moved(by, &rest.v)));
-            for row in 0..n {
-                matrix[(n + row, column)] = (by_place[0][row] - by_place[1][row]) / (2.0 * step * scale);
-                matrix[(n + row, n + column)] = (by_speed[0][row] - by_speed[1][row]) / (2.0 * OF_VELOCITY);
+            for (kind, step) in [step, OF_VELOCITY].into_iter().enumerate() {
+                for (sign, force) in [1.0, -1.0].into_iter().zip(&mut forces) {
+                    let held = [y[column], v[column]];
+                    [&mut y, &mut v][kind][column] += sign * step;
+                    self.force_into(t, &y, &v, force);
+                    [y[column], v[column]] = held;
+                }
+                for row in 0..n {
+                    found[kind][(row, column)] = (forces[0][row] - forces[1][row]) / (2.0 * step);
+                }
             }
-            matrix[(column, n + column)] = scale;
-            matrix[(n + column, column)] -= self.linear[column].squared_frequency / scale;
-            matrix[(n + column, n + column)] -= self.linear[column].damping;
         }
-        matrix
+        found
     }
 
     /// A mode by its eigenvalue and the displacements of its vector.

@@ -32,8 +32,8 @@ pub(super) struct Machine {
     pub(super) catalogue: Option<String>,
     /// Whether what a file states of its speed goes before what was typed.
     pub(super) own_first: bool,
-    /// The bearing of a run in space that is asked for: its label, and whether preload or thrust hold all its balls.
-    pub(super) of_run: Option<(String, bool)>,
+    /// The bearing of a run in space that is asked for: its label, and what its damage adds to the signals.
+    pub(super) of_run: Option<(String, f64)>,
 }
 
 impl Machine {
@@ -86,7 +86,7 @@ impl Machine {
 
     /// One of the bearings of a run in space, at the orders that its results say.
     fn of_run_in_space(asked: &AnalyzeArguments, folder: &Path, case: &Case, label: &str) -> Result<Self, CliError> {
-        let (rolling, pressed) = bearing_of_results(folder, label)?;
+        let (rolling, damage) = bearing_of_results(folder, label)?;
         let orders = FaultOrders::of(&rolling, asked.geometry_error.unwrap_or(0.0)).map_err(ComputeError::from)?;
         Ok(Self {
             orders: Some(orders),
@@ -95,7 +95,7 @@ impl Machine {
             of_case: Some(crate::app::scene::bearing::speed(case)?),
             catalogue: None,
             own_first: false,
-            of_run: Some((label.to_owned(), pressed)),
+            of_run: Some((label.to_owned(), damage)),
         })
     }
 
@@ -198,8 +198,8 @@ fn bearing_of_run(asked: &AnalyzeArguments, case: &Case) -> Result<Option<String
     }
 }
 
-/// The orders of a bearing that the results of a run say, and whether all its balls carry load at rest.
-fn bearing_of_results(folder: &Path, label: &str) -> Result<(DefectOrders, bool), CliError> {
+/// The orders of a bearing that the results of a run say, and what its damage adds to the signals.
+fn bearing_of_results(folder: &Path, label: &str) -> Result<(DefectOrders, f64), CliError> {
     #[derive(serde::Deserialize)]
     struct Orders {
         cage: f64,
@@ -211,7 +211,7 @@ fn bearing_of_results(folder: &Path, label: &str) -> Result<(DefectOrders, bool)
     struct OfBearing {
         label: String,
         defect_orders: Orders,
-        inner_force_n: Vec<f64>,
+        damage_share: f64,
     }
     #[derive(serde::Deserialize)]
     struct Results {
@@ -223,12 +223,11 @@ fn bearing_of_results(folder: &Path, label: &str) -> Result<(DefectOrders, bool)
     let results: Result<Results, _> = serde_json::from_str(&text);
     let results = results.map_err(|error| CliError::input(format!("{}: {error}", path.display())))?;
     let own = results.bearings.into_iter().find(|own| own.label == label);
-    let Some(OfBearing { defect_orders: Orders { cage, outer, inner, ball }, inner_force_n, .. }) = own else {
+    let Some(OfBearing { defect_orders: Orders { cage, outer, inner, ball }, damage_share, .. }) = own else {
         let what = format!("{}: found no bearing \"{label}\", expected the orders of one", path.display());
         return Err(CliError::input(what).with_help("compute the run anew"));
     };
-    let pressed = inner_force_n.iter().all(|force| *force > 0.0);
-    Ok((DefectOrders { cage, outer, inner, ball_spin: 0.5 * ball, ball_defect: ball }, pressed))
+    Ok((DefectOrders { cage, outer, inner, ball_spin: 0.5 * ball, ball_defect: ball }, damage_share))
 }
 
 /// A case whose bearing stays in its plane, as orders at no contact angle do.

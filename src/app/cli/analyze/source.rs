@@ -277,10 +277,10 @@ fn flaws_of(name: &str, series: &TimeSeries) -> Vec<String> {
 /// Filter and windows: what was typed, else what the run's case says.
 fn settings(asked: &AnalyzeArguments, case: Option<&Case>, machine: &Machine) -> AnalysisSettings {
     let of_case = |case: &Case| match &machine.of_run {
-        None => AnalysisSettings::of(case, case.bearing.as_ref(), false),
-        Some((label, pressed)) => {
+        None => AnalysisSettings::of(case, case.bearing.as_ref(), None),
+        Some((label, damage)) => {
             let own = case.seats().into_iter().find(|seat| seat.label == *label);
-            AnalysisSettings::of(case, own.and_then(|seat| seat.bearing), *pressed)
+            AnalysisSettings::of(case, own.and_then(|seat| seat.bearing), Some(*damage))
         }
     };
     let mut settings = case.map(of_case).unwrap_or_default();

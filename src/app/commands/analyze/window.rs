@@ -7,6 +7,7 @@ use super::fault_lines::{FaultLine, fault_lines};
 use crate::app::case::{Bearing, Case, Defect, DentDefect, Load, MeasuredDefect};
 use crate::app::error::ComputeError;
 use crate::bearing::Race;
+use crate::bearing::kinematics::DefectOrders;
 use crate::formats::MeasuredSignal;
 use crate::numerics::Watch;
 use crate::numerics::series::{PASSED, TimeSeries, TimeWindow};
@@ -51,16 +52,16 @@ pub struct AnalysisSettings {
 }
 
 impl AnalysisSettings {
-    /// What a case asks for, of one of its bearings; `pressed` where preload or thrust hold all its balls, whatever its play.
+    /// What a case asks for, of one of its bearings; `share` is what a run showed of its damage, as [`no_signs`] takes it.
     #[must_use]
-    pub(crate) fn of(case: &Case, bearing: Option<&Bearing>, pressed: bool) -> Self {
+    pub(crate) fn of(case: &Case, bearing: Option<&Bearing>, share: Option<f64>) -> Self {
         Self {
             band: AskedBand::of(case),
             shown_band: None,
             whiten: case.analysis.whiten,
             windows: case.analysis.envelope.clone(),
             good_to_hz: good_to_hz(case),
-            no_signs: no_signs(case, bearing, pressed),
+            no_signs: no_signs(case, bearing, share),
         }
     }
 
@@ -92,6 +93,10 @@ fn good_to_hz(case: &Case) -> Option<f64> {
     let passed = PASSED * case.transient.as_ref()?.output_hz;
     Some(case.band_hz()?[1].min(passed))
 }
+
+/// Multiples of another bearing's lines that are known for its own, and how near an order has to be, relative.
+const LISTED_MULTIPLES: u32 = 6;
+const SAME_ORDER: f64 = 5e-3;
 
 /// What of a signal lies in the band of its case.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, JsonSchema)]
@@ -197,8 +202,17 @@ fn verdict_summary<S: Serializer>(diagnosis: &Result<Diagnosis, String>, to: S) 
 }
 
 impl WindowAnalysis {
-    /// The same of a bearing with this label, which is empty for the only one.
-    pub(crate) fn of_bearing(self, label: &str) -> Self {
+    /// The same of a bearing with this label, which is empty for the only one. Impacts at the orders of the machine's other bearings, or
+    /// their multiples, are theirs and no longer unexplained.
+    pub(crate) fn of_bearing(mut self, label: &str, others: &[DefectOrders]) -> Self {
+        let theirs = |order: f64| {
+            let lines = others.iter().flat_map(|own| [own.outer, own.inner, own.ball_defect, own.cage]);
+            let mut multiples = lines.flat_map(|line| (1..=LISTED_MULTIPLES).map(move |k| f64::from(k) * line));
+            multiples.any(|line| (order / line - 1.0).abs() < SAME_ORDER)
+        };
+        if let Ok(diagnosis) = &mut self.diagnosis {
+            diagnosis.unexplained.retain(|impacts| !theirs(impacts.order));
+        }
         Self { bearing: Some(label.to_owned()).filter(|label| !label.is_empty()), ..self }
     }
 
@@ -435,13 +449,17 @@ const STRIKING_LOAD: f64 = 7500.0;
 /// m/s^2
 const STANDARD_GRAVITY: f64 = 9.80665;
 
-/// Why lines of a part are no sign of damage in a simulated bearing: the case has no damage there, or the load is too large to tell.
-pub(crate) fn no_signs(case: &Case, bearing: Option<&Bearing>, pressed: bool) -> Vec<(Fault, bool, String)> {
+/// What damage has to add to a signal to be what its lines come from, over the signal without it.
+const DAMAGE_SHOWS: f64 = 1.0;
+
+/// Why lines of a part are no sign of damage in a simulated bearing: the case has no damage there, the load is too large to tell, or a
+/// stretch with and without the damage differs by too small a `share` of the RMS without it; `None` where no stretch was compared.
+pub(crate) fn no_signs(case: &Case, bearing: Option<&Bearing>, share: Option<f64>) -> Vec<(Fault, bool, String)> {
     let Some(bearing) = bearing else {
         return Vec::new();
     };
-    let play =
-        (bearing.play() > 0.0 && !pressed).then(|| format!("the play is {} µm", significant(1e6 * bearing.play(), 2)));
+    let has_play = bearing.play() > 0.0 && share.is_none();
+    let play = has_play.then(|| format!("the play is {} µm", significant(1e6 * bearing.play(), 2)));
     let damaged = bearing.defects.iter().map(|defect| match defect {
         Defect::Dent(DentDefect { on, .. }) | Defect::Measured(MeasuredDefect { on, .. }) => match on {
             Race::Outer => Fault::OuterRace,
@@ -455,6 +473,13 @@ pub(crate) fn no_signs(case: &Case, bearing: Option<&Bearing>, pressed: bool) ->
         let reason = match (damaged.contains(&fault), play) {
             (false, Some(play)) => format!("The case has no damage there, and {play}."),
             (false, None) => "The case has no damage there.".to_owned(),
+            (true, _) if share.is_some() => {
+                let share = share.filter(|share| *share < DAMAGE_SHOWS)?;
+                format!(
+                    "A sound bearing has such lines too: without the damage a stretch of the run differs by {} of its RMS at most.",
+                    significant(share, 2)
+                )
+            }
             (true, play) => {
                 let (play, weights) = (play?, ball_weights(case, bearing).filter(|weights| *weights >= STRIKING_LOAD)?);
                 format!(

@@ -35,8 +35,9 @@ pub(crate) fn bearings_table(setup: &SpatialSetup, orders: &[DefectOrders], rest
         row("Mean contact angle at rest, by the loads", "deg", &|(.., balls)| {
             Cell::number_or(mean_angle(balls), 4, "no load")
         }),
+        row("Axial force of the inner race on the balls at rest", "N", &number(|(.., balls)| axial_force(balls), 4)),
         row("Balls that carry load at rest", "", &|(.., balls)| {
-            Cell::text(balls.iter().filter(|ball| ball.load[0] > 0.0).count().to_string())
+            Cell::text(balls.iter().filter(|ball| ball.load[0].max(ball.load[1]) > 0.0).count().to_string())
         }),
         row("Largest ball load at rest", "N", &number(|(.., balls)| balls.iter().map(larger).fold(0.0, f64::max), 4)),
         row("Largest pressure at rest", "MPa", &number(|(own, _, balls)| 1e-6 * largest_pressure(own, balls), 4)),
@@ -65,6 +66,11 @@ fn mean_angle(balls: &[SpatialBallLoad]) -> Option<f64> {
         .filter_map(|(angle, load)| Some((angle?, load)))
         .fold((0.0, 0.0), |(sum, loads), (angle, load)| (sum + load * angle.abs(), loads + load));
     (loads > 0.0).then(|| (sum / loads).to_degrees())
+}
+
+/// Axial part of the inner race's forces on the balls, N: with preload alone what is left of it in elastic rings.
+fn axial_force(balls: &[SpatialBallLoad]) -> f64 {
+    balls.iter().map(|ball| ball.load[0] * ball.contact_angle[0].unwrap_or(0.0).sin()).sum()
 }
 
 /// Largest pressure under the balls, Pa.

@@ -11,7 +11,7 @@ use crate::app::error::ComputeError;
 use crate::app::scene::{MachineScene, Scene};
 use crate::numerics::Watch;
 use crate::report::significant;
-use crate::signal::diagnosis::Kinematics;
+use crate::signal::diagnosis::{Conclusion, Kinematics};
 use crate::system::{EnergyBalance, LoadedModes, RunRecord, Statics};
 
 /// Samples up to which the balance of energy is taken unless the case says otherwise: it takes 4300 to 9700 instructions a sample
@@ -124,12 +124,14 @@ fn run_in_space<C: Checkpoints>(
     let choice = ModelChoice::in_space(case, asked, &scene)?;
     watch.stage("compare with a finer run");
     let horizon = Horizon::of_any(case, asked, &scene, &choice);
+    watch.stage("compare with sound bearings");
+    let damage = scene.damage_shown(case, asked, &choice.model);
     watch.stage("step");
     let (span, energy) = (span(asked), takes_energy(case, asked, &choice));
     let (system, state) = scene.at_rest(&choice.model, scene.start)?;
     let fraction = |done| watch.fraction(done);
     let simulation = Simulation::kept(system, state, &choice.model, span, energy, checkpoints, fraction)?;
-    let machine = Machine::InSpace(Box::new(SpatialMachine { scene, loaded }));
+    let machine = Machine::InSpace(Box::new(SpatialMachine { scene, loaded, damage }));
     watch.stage("analyse");
     Ok(RunResult::analysed(case, machine, BearingModel::in_space(spatial), choice, horizon, simulation))
 }
@@ -174,6 +176,43 @@ impl<R: Recording> RunResult<R> {
             Some("the condensed housing has so few vectors that their estimated error is as large as they are")
         } else {
             None
+        }
+    }
+
+    /// Every part that a signal names, with its bearing and sensors, in words.
+    pub(crate) fn verdict_on_machine(&self) -> String {
+        let mut named: Vec<(String, Vec<&str>)> = Vec::new();
+        for window in &self.windows {
+            for verdict in window.parts(Conclusion::Named) {
+                let bearing = window.bearing.as_deref().map_or_else(String::new, |label| format!("bearing {label}, "));
+                let part = bearing + verdict.fault.name();
+                match named.iter_mut().find(|(known, _)| *known == part) {
+                    Some((_, sensors)) => sensors.push(&window.sensor),
+                    None => named.push((part, vec![&window.sensor])),
+                }
+            }
+        }
+        if named.is_empty() {
+            return "no fault indicated".to_owned();
+        }
+        let told = named.into_iter().map(|(part, mut sensors)| {
+            sensors.dedup();
+            format!("{part} (by {})", sensors.join(", "))
+        });
+        told.collect::<Vec<_>>().join("; ")
+    }
+
+    /// Kept modes, and the vectors that stand for the others, in words.
+    pub(crate) fn kept_words(&self) -> String {
+        let (modes, dof) = (self.simulation.modes, self.machine.stage().structure.dof());
+        let vectors = match self.machine {
+            Machine::InPlane(_) => 0,
+            Machine::InSpace(_) => modes - self.choice.model.modes.count(&self.machine.stage().modes).min(modes),
+        };
+        match vectors {
+            0 if self.simulation.residual => format!("{modes} of {dof} modes with static residual"),
+            0 => format!("{modes} of {dof} modes"),
+            vectors => format!("{} of {dof} modes and {vectors} static vectors", modes - vectors),
         }
     }
 
@@ -227,13 +266,16 @@ impl<R: Recording> RunResult<R> {
     fn analyse(&mut self, case: &Case) {
         let bearings = self.machine.bearings();
         for (bearing, seat) in bearings.iter().zip(case.seats()) {
-            let settings = AnalysisSettings::of(case, seat.bearing, bearing.pressed);
+            let settings = AnalysisSettings::of(case, seat.bearing, bearing.damage);
             let kinematics = Kinematics::of(bearing.cage, bearing.balls, bearing.orders);
             for (index, name) in self.simulation.record.layout().sensors.iter().enumerate() {
                 let read = |window, margin| self.simulation.stretch(index, window, margin);
                 match analyse(name, &settings, read, &kinematics) {
                     Ok(windows) => {
-                        self.windows.extend(windows.into_iter().map(|window| window.of_bearing(bearing.label)))
+                        let others = bearings.iter().filter(|other| other.label != bearing.label);
+                        let others: Vec<_> = others.map(|other| other.orders).collect();
+                        let windows = windows.into_iter().map(|window| window.of_bearing(bearing.label, &others));
+                        self.windows.extend(windows);
                     }
                     Err(error) if seat.is_first() => self.not_analysed.push(format!("{name}: {error}")),
                     Err(_) => {}

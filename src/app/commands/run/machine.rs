@@ -36,6 +36,9 @@ pub struct SpatialMachine {
     pub scene: MachineScene,
     /// Modes linearised where it rests.
     pub loaded: LoadedModes,
+    /// Of each bearing what its damage adds to a stretch of the signals, over the RMS without it, the largest sensor's; zero of a sound
+    /// bearing, and of one whose stretch cannot be stepped.
+    pub damage: Vec<f64>,
 }
 
 /// Which model of the bearing a run has, and why.
@@ -56,8 +59,8 @@ pub(crate) struct BearingMotion<'a> {
     pub balls: u32,
     /// Orders without slip.
     pub orders: DefectOrders,
-    /// Whether preload or thrust hold all its balls.
-    pub pressed: bool,
+    /// What its damage adds to the signals, over those without it; `None` in the plane, where this is not looked at.
+    pub damage: Option<f64>,
 }
 
 impl BearingModel {
@@ -127,15 +130,14 @@ impl Machine {
             Self::InPlane(machine) => {
                 let setup = &machine.scene.setup;
                 let (balls, orders) = (setup.geometry.balls(), setup.geometry.orders());
-                vec![BearingMotion { label: "", cage: &setup.cage, balls, orders, pressed: false }]
+                vec![BearingMotion { label: "", cage: &setup.cage, balls, orders, damage: None }]
             }
             Self::InSpace(machine) => {
                 let scene = &machine.scene;
-                let bearings = scene.setup.bearings.iter().zip(&scene.orders).zip(&scene.equilibrium.bearings);
-                let bearings = bearings.map(|((own, orders), at_rest)| {
+                let bearings = scene.setup.bearings.iter().zip(&scene.orders).zip(&machine.damage);
+                let bearings = bearings.map(|((own, orders), damage)| {
                     let balls = own.bearing.geometry().balls();
-                    let pressed = at_rest.iter().all(|ball| ball.load[0] > 0.0 && ball.load[1] > 0.0);
-                    BearingMotion { label: &own.label, cage: &own.cage, balls, orders: *orders, pressed }
+                    BearingMotion { label: &own.label, cage: &own.cage, balls, orders: *orders, damage: Some(*damage) }
                 });
                 bearings.collect()
             }

@@ -30,11 +30,21 @@ pub(crate) fn run_report<R: Recording>(
     result: &RunResult<R>,
     command: &str,
 ) -> Result<Report, ComputeError> {
-    let mut report = parts::signed_report(case, command, "Simulated run of a ball bearing in its housing");
+    let mut report = parts::signed_report(
+        case,
+        command,
+        match result.machine {
+            Machine::InPlane(_) => "Simulated run of a ball bearing in its housing",
+            Machine::InSpace(_) => "Simulated run of a shaft in its bearings and their housing",
+        },
+    );
     let few = result.windows.len() <= SHOWN_WINDOWS;
     let name = case.source.path.display().to_string();
     let of_many = result.windows.iter().filter(|_| !few);
     let rows: Vec<AnalysisRow> = of_many.map(|window| AnalysisRow::of(&name, window.clone())).collect();
+    if result.machine.in_space().is_some() && !result.windows.is_empty() {
+        report = report.headline("Verdict on the machine", result.verdict_on_machine(), Verdict::None);
+    }
     for (label, bearing) in case.all_bearings() {
         let faults = parts::faults(bearing).join("; ");
         let faults = if faults.is_empty() { parts::NO_FAULT.to_owned() } else { faults };

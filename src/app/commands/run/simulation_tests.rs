@@ -256,7 +256,7 @@ fn an_envelope_of_a_stretch_is_that_of_the_whole_signal() {
     });
     let simulation = with_signal(values.collect());
     let analysed = |read: &dyn Fn(TimeWindow, f64) -> Result<TimeSeries, ComputeError>| {
-        let settings = AnalysisSettings::of(&case, case.bearing.as_ref(), false);
+        let settings = AnalysisSettings::of(&case, case.bearing.as_ref(), None);
         let mut windows = analyse(
             "P1",
             &settings,

@@ -1,10 +1,9 @@
 //! What `run.json` says, and `plummer run --explain`.
 
 use super::choice::{ChosenPart, ModelChoice};
-use super::{Recording, RunEnd, RunResult};
+use super::{Machine, Recording, RunEnd, RunResult};
 use crate::app::commands::analyze::WindowAnalysis;
 use crate::app::commands::parts::SuperelementSummary;
-use crate::app::scene::MachineScene;
 use crate::bearing::kinematics::DefectOrders;
 use crate::system::{
     BallLoad, BallsInertia, BearingInPlace, EnergyBalance, Equilibrium, SpatialBallLoad, SpatialEquilibrium,
@@ -151,6 +150,8 @@ pub struct BearingSummary<'a> {
     pub place_m: f64,
     /// How often its parts strike in a turn of the shaft, at the contact angles in force.
     pub defect_orders: DefectOrders,
+    /// What its damage adds to a stretch of the signals, over the RMS without it, the largest sensor's.
+    pub damage_share: f64,
     /// Azimuth of each ball, rad.
     pub ball_angle_rad: Vec<f64>,
     /// Contact angle of each ball at the inner and the outer race, rad; null without contact.
@@ -233,7 +234,7 @@ impl<R: Recording> RunResult<R> {
             other_equilibria: in_plane.map(|machine| machine.statics.equilibria.iter().skip(1).map(other).collect()),
             defect_orders: in_plane.map(|machine| machine.scene.setup.geometry.orders()),
             shaft: self.machine.in_space().map(|scene| ShaftSummary::of(&scene.equilibrium)),
-            bearings: self.machine.in_space().map(BearingSummary::all_of).unwrap_or_default(),
+            bearings: BearingSummary::all_of(&self.machine),
             windows: &self.windows,
             superelement: SuperelementSummary::of(&stage.bodies),
             not_analysed: &self.not_analysed,
@@ -262,18 +263,24 @@ impl ShaftSummary {
 }
 
 impl<'a> BearingSummary<'a> {
-    fn all_of(scene: &'a MachineScene) -> Vec<Self> {
+    fn all_of(machine: &'a Machine) -> Vec<Self> {
+        let Machine::InSpace(machine) = machine else { return Vec::new() };
+        let scene = &machine.scene;
         let bearings = scene.setup.bearings.iter().zip(&scene.orders).zip(&scene.equilibrium.bearings);
-        let summary = |((own, orders), balls): ((&'a BearingInPlace, &DefectOrders), &Vec<SpatialBallLoad>)| Self {
-            label: &own.label,
-            place_m: own.place,
-            defect_orders: *orders,
-            ball_angle_rad: balls.iter().map(|ball| ball.azimuth).collect(),
-            contact_angle_rad: balls.iter().map(|ball| ball.contact_angle).collect(),
-            inner_force_n: balls.iter().map(|ball| ball.load[0]).collect(),
-            outer_force_n: balls.iter().map(|ball| ball.load[1]).collect(),
-        };
-        bearings.map(summary).collect()
+        let summary =
+            |(((own, orders), balls), damage): (((&'a BearingInPlace, &DefectOrders), &Vec<SpatialBallLoad>), &f64)| {
+                Self {
+                    label: &own.label,
+                    place_m: own.place,
+                    defect_orders: *orders,
+                    damage_share: *damage,
+                    ball_angle_rad: balls.iter().map(|ball| ball.azimuth).collect(),
+                    contact_angle_rad: balls.iter().map(|ball| ball.contact_angle).collect(),
+                    inner_force_n: balls.iter().map(|ball| ball.load[0]).collect(),
+                    outer_force_n: balls.iter().map(|ball| ball.load[1]).collect(),
+                }
+            };
+        bearings.zip(&machine.damage).map(summary).collect()
     }
 }
 

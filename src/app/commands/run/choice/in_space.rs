@@ -14,10 +14,12 @@ use crate::app::error::ComputeError;
 use crate::app::scene::structure::complete_for;
 use crate::app::scene::{MachineScene, RunModel};
 use crate::bearing::Race;
+use crate::bearing::kinematics::DefectOrders;
 use crate::bearing::spatial::SpatialBearing;
 use crate::numerics::ode::Method;
 use crate::report::significant;
-use crate::system::{BallsInertia, ModeSelection};
+use crate::signal::relative_difference;
+use crate::system::{BallsInertia, BearingInPlace, ModeSelection};
 use std::f64::consts::TAU;
 
 /// The modes that are tried first: up to so many times the band, and at least so many.
@@ -74,6 +76,40 @@ impl Stepped for MachineScene {
         let pairs = instants.windows(2).filter(|ends| ends[1] > ends[0]);
         let fastest = pairs.map(|ends| ([ends[0], ends[1]], rate(ends))).max_by(|(_, a), (_, b)| a.total_cmp(b))?;
         (fastest.1 > 0.0).then_some(fastest.0)
+    }
+}
+
+/// Longest stretch that is compared with a sound bearing, s: at a crawl no ball may come to the damage in it.
+const LONGEST_PASS: f64 = 0.1;
+
+impl MachineScene {
+    /// Of each bearing what its damage adds to a stretch of the signals in the band, over the RMS without it, the largest sensor's.
+    pub(crate) fn damage_shown(&self, case: &Case, asked: &case::Transient, model: &RunModel) -> Vec<f64> {
+        let band_hz = case.band_hz().map_or(USUAL_BAND, |band| band[1]);
+        let run_s = asked.end - asked.start;
+        let pass = |(own, orders): (&BearingInPlace, &DefectOrders)| {
+            let shaft = own.cage.shaft().fastest(asked.start, asked.end) / TAU;
+            1.0 / (shaft * orders.outer.min(orders.inner))
+        };
+        let slowest = self.setup.bearings.iter().zip(&self.orders).map(pass).fold(0.0, f64::max);
+        let length = (1.5 * slowest).min(LONGEST_PASS).max(pilot::stretch_s(asked, band_hz)).min(run_s);
+        let begin = self.before_a_strike(asked, run_s - length);
+        let span = Span { duration: length, output_hz: asked.output_hz };
+        let damaged = |own: &BearingInPlace| !own.bearing.defects().is_empty();
+        let Some(with) =
+            self.setup.has_defects().then(|| pilot::stretch(self, model, span, begin, band_hz).ok()).flatten()
+        else {
+            return vec![0.0; self.setup.bearings.len()];
+        };
+        let share = |bearing: usize| {
+            let without = self.without_damage(bearing);
+            let without = pilot::stretch(&without, model, span, begin, band_hz).ok()?;
+            let shares =
+                with.iter().zip(&without).filter_map(|(with, without)| relative_difference(with, without).ok());
+            shares.reduce(f64::max)
+        };
+        let bearings = self.setup.bearings.iter().enumerate();
+        bearings.map(|(index, own)| if damaged(own) { share(index).unwrap_or(0.0) } else { 0.0 }).collect()
     }
 }
 
@@ -217,8 +253,25 @@ fn own_step(asked: &case::Transient, scene: &MachineScene, model: &RunModel) -> 
             "eight while a ball passes the shortest defect at the highest speed; halved where a tolerance asks for it";
         (pass / stepping::STEPS_PER_PASS, why)
     }));
+    limits.extend(stable_step(scene, model).map(|step| {
+        (step, "in longer ones the contacts' small vibrations at rest grow up to the tolerance; halved where the tolerance asks for it")
+    }));
     let shortest = limits.into_iter().min_by(|(a, _), (b, _)| a.total_cmp(b));
     shortest.unwrap_or((interval, "an output interval"))
+}
+
+/// Coordinates up to which the stable step is looked for: it takes the cube of their number.
+const MOST_COORDINATES: usize = 400;
+
+/// The longest step of exponential-adams with a tolerance in which small motions at rest do not grow, s.
+fn stable_step(scene: &MachineScene, model: &RunModel) -> Option<f64> {
+    let Method::ExponentialAdams { tolerance: Some(_) } = model.method else { return None };
+    let (mut system, state) = scene.at_rest(model, scene.start).ok()?;
+    if state.y.len() > MOST_COORDINATES {
+        return None;
+    }
+    let limit = model.method.step_limit(&mut system, &state)?;
+    Some(stepping::STABLE * limit.step_s)
 }
 
 /// The shortest time in which a ball passes a defect from end to end, s; `None` without one, or where nothing turns.

@@ -254,7 +254,7 @@ pub(crate) fn held_s([run, finer]: &[Vec<TimeSeries>; 2], most: f64, first_s: f6
 }
 
 /// The sensors' signals in the band over a stretch that begins at rest.
-fn stretch(
+pub(crate) fn stretch(
     scene: &impl Stepped,
     model: &RunModel,
     span: Span,

@@ -34,7 +34,7 @@ pub(crate) const MODE_PHASE: f64 = 2.0;
 pub(crate) const LEAST_SAMPLES: f64 = 4.0;
 
 /// Part of the stable step that is used: contacts at other angles of the balls are a little stiffer.
-const STABLE: f64 = 0.9;
+pub(crate) const STABLE: f64 = 0.9;
 
 /// Step of the other methods: phase of the stiffest ball vibration, rad.
 const PHASE: f64 = 0.1;
