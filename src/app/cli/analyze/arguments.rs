@@ -22,7 +22,7 @@ pub struct AnalyzeArguments {
     #[arg(long, allow_hyphen_values = true, value_name = "HZ", value_parser = positive)]
     pub rate: Option<f64>,
     /// Case file with bearing and shaft speed (--speed replaces that speed), or a bearing of the catalogue, as 6205: plummer init
-    /// --list-bearings. A file of that name comes first
+    /// --list-bearings. A file of that name comes first. Of a run with several bearings, the label of one
     #[arg(long, value_name = "CASE.toml|NAME")]
     pub bearing: Option<PathBuf>,
     /// Number of balls, with --pitch-diameter and --ball-diameter
