@@ -285,8 +285,8 @@ impl BallLaw {
             }
         }
         Err(BearingError(format!(
-            "a ball finds no place between the races: {:.3e} N of {:.3e} N stay out of balance; \
-             load, tilt or speed is more than the grooves hold",
+            "finds no place between the races: {:.3e} N of {:.3e} N stay out of balance; \
+             lower the speed, or change load, tilt or play",
             at.force.norm(),
             at.scale
         )))

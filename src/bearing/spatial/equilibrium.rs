@@ -21,14 +21,22 @@ const HALVINGS: usize = 30;
 const LONGEST_STEP: [f64; 2] = [0.01, 0.1];
 const PATIENCE: usize = 60;
 
+/// What becomes of the longest step after one that turned back, one that was halved, and one that was neither. Light contacts hold
+/// a shaft within nanometres, beside which the potential falls: steps of one length jump to and fro over such a place.
+const TURNED_BACK: f64 = 0.25;
+const HALVED: f64 = 0.5;
+const WENT_ON: f64 = 2.0;
+
 /// Force out of balance that counts as none, relative to the largest of the load and the balls' loads.
 const FORCE_TOLERANCE: f64 = 1e-11;
 
 /// Round-off of a penetration, relative to the distance of a ball from the groove centres.
 const ROUND_OFF: f64 = 16.0 * f64::EPSILON;
 
-/// Stiffness below which a direction counts as held by nothing, N/m; see `system::equilibrium`.
+/// Stiffness below which a direction counts as held by nothing, N/m; see `system::equilibrium`. Light loads hold less: it is at most
+/// this share of the load over the pitch radius.
 const HELD: f64 = 0.1;
+const HELD_SHARE: f64 = 1e-3;
 
 /// Distance below which two equilibria are one, as a share of the distance of the groove centres.
 const SAME: f64 = 1e-6;
@@ -67,11 +75,14 @@ impl ShaftEquilibrium {
 }
 
 /// Where a search ended.
+#[derive(Clone)]
 struct Found {
     at: Five,
     balance: Balance,
     iterations: usize,
     curvatures: Vec<f64>,
+    /// Stiffness below which a direction is loose, N/m.
+    held: f64,
 }
 
 impl RigidShaft {
@@ -90,13 +101,30 @@ impl RigidShaft {
         self.result(&found)
     }
 
-    /// The equilibrium of [`Self::equilibrium`] first, then the other stable ones that are found from starts to several sides, then
-    /// the saddles between neighbours. Places along a direction that nothing holds count as one.
+    /// The equilibrium to which the load leads from a displacement nearby, so that it stays on one branch where there are several.
     ///
     /// # Errors
-    /// As [`Self::equilibrium`]; a start that leads nowhere is no error.
+    /// As [`Self::equilibrium`].
+    pub(crate) fn equilibrium_near(
+        &self,
+        load: &ShaftLoad,
+        near: &RingDisplacement,
+    ) -> Result<ShaftEquilibrium, BearingError> {
+        self.check(load)?;
+        let start = self.start(near.vector().component_div(&self.units()));
+        self.search(start, load, true).and_then(|found| self.result(&found)).or_else(|_| self.equilibrium(load))
+    }
+
+    /// The equilibrium of [`Self::equilibrium`] first, then the other stable ones that are found from starts to several sides, then
+    /// the saddles between neighbours. Of a load that leads to a saddle or nowhere, a stable one comes first. Places along a direction
+    /// that nothing holds count as one.
+    ///
+    /// # Errors
+    /// As [`Self::equilibrium`], where no start leads to an equilibrium.
     pub fn find_all(&self, load: &ShaftLoad) -> Result<Vec<ShaftEquilibrium>, BearingError> {
-        let mut all = vec![self.equilibrium(load)?];
+        self.check(load)?;
+        let first = self.equilibrium(load);
+        let mut all: Vec<ShaftEquilibrium> = first.iter().cloned().collect();
         let distance = self.centre_distance();
         let along = load.force[1].atan2(load.force[0]);
         for step in 0..12 {
@@ -106,6 +134,10 @@ impl RigidShaft {
                 self.keep(&mut all, self.search(self.start(aside), load, true));
             }
         }
+        if all.is_empty() {
+            return first.map(|only| vec![only]);
+        }
+        all.sort_by_key(|rest| !rest.is_stable());
         let (sin, cos) = along.sin_cos();
         let across =
             |rest: &ShaftEquilibrium| rest.displacement.translation[1] * cos - rest.displacement.translation[0] * sin;
@@ -200,51 +232,75 @@ impl RigidShaft {
         let mut at = start;
         let mut balance = self.scaled(&at, load)?;
         if free.is_empty() {
-            return Ok(Found { at, balance, iterations: 0, curvatures: Vec::new() });
+            return Ok(Found { at, balance, iterations: 0, curvatures: Vec::new(), held: HELD });
         }
         let [fx, fy, fz] = load.force;
         let [mx, my] = load.moment;
         let applied = [fx, fy, fz, mx / arm, my / arm].into_iter().fold(0.0_f64, |most, part| most.max(part.abs()));
         // what a bearing without any load is measured by
         let ball_weight = 9.81 * self.bearings[0].bearing.geometry().ball_mass();
-        let (mut iterations, mut before) = (0, f64::INFINITY);
+        let (mut iterations, mut before, mut trust) = (0, f64::INFINITY, 1.0_f64);
+        let mut last: Option<DVector<f64>> = None;
+        // step off a saddle: to the other side and shorter each time that the search comes back
+        let mut escape = 1.0_f64;
+        // a place in balance that could not be left downhill
+        let mut saddle_found = None;
         loop {
             let gradient = DVector::from_fn(free.len(), |row, _| balance.gradient[free[row]]);
             let stiffness = DMatrix::from_fn(free.len(), free.len(), |a, b| balance.stiffness[(free[a], free[b])]);
             let eigen = ((&stiffness + stiffness.transpose()) * 0.5).symmetric_eigen();
             let scale = applied.max(balance.carried).max(ball_weight);
-            let falling = -0.01 * scale / arm - HELD;
+            let held = HELD.min(HELD_SHARE * applied.max(balance.carried) / arm);
             let softest = (0..free.len()).min_by(|&a, &b| eigen.eigenvalues[a].total_cmp(&eigen.eigenvalues[b]));
-            let saddle = softest.filter(|&index| downhill && eigen.eigenvalues[index] < falling);
+            let saddle = softest.filter(|&index| downhill && eigen.eigenvalues[index] < -held);
             let error = gradient.amax();
             let round_off = ROUND_OFF * reach * stiffness.iter().fold(0.0_f64, |most, k| most.max(k.abs()));
             let balanced =
                 error <= FORCE_TOLERANCE * scale || (error <= round_off && error > 0.5 * before) || error <= 0.0;
-            if balanced && saddle.is_none() {
-                return Ok(Found { at, balance, iterations, curvatures: eigen.eigenvalues.iter().copied().collect() });
+            if balanced {
+                let curvatures = eigen.eigenvalues.iter().copied().collect();
+                let found = Found { at, balance: balance.clone(), iterations, curvatures, held };
+                if saddle.is_none() {
+                    return Ok(found);
+                }
+                saddle_found = Some(found);
             }
             if iterations == MAX_ITERATIONS || !error.is_finite() {
+                if let Some(found) = saddle_found {
+                    return Ok(found);
+                }
                 return Err(BearingError(format!(
                     "the shaft finds no equilibrium: {error:.3e} N stay out of balance after {iterations} steps; \
                      check that the bearings can carry the load in every direction"
                 )));
             }
             before = error;
-            let most = LONGEST_STEP[usize::from(iterations >= PATIENCE)] * reach;
-            let mut step = match (balanced, saddle) {
-                (true, Some(index)) => eigen.eigenvectors.column(index) * most,
+            let longest = LONGEST_STEP[usize::from(iterations >= PATIENCE)] * reach;
+            let leave = escape * LONGEST_STEP[0] * reach;
+            let within = |most: f64| match (balanced, saddle) {
+                (true, Some(index)) => eigen.eigenvectors.column(index) * leave,
                 _ => {
                     let mut step = DVector::zeros(free.len());
                     for (&curvature, direction) in eigen.eigenvalues.iter().zip(eigen.eigenvectors.column_iter()) {
-                        let size = curvature.abs().max(HELD);
+                        let size = curvature.abs().max(held);
                         let along = direction.dot(&gradient) / if downhill { size } else { size.copysign(curvature) };
                         step -= direction * along.clamp(-most, most);
                     }
                     // with inertia the stiffness is not symmetric: Newton's own step is the better one near the end
-                    let newton = stiffness.lu().solve(&gradient).map(|newton| -newton);
-                    newton.filter(|newton| newton.amax() < 1e-3 * most && saddle.is_none()).unwrap_or(step)
+                    let newton = stiffness.clone().lu().solve(&gradient).map(|newton| -newton);
+                    newton.filter(|newton| newton.amax() < 1e-3 * longest && saddle.is_none()).unwrap_or(step)
                 }
             };
+            let mut step = within(trust * longest);
+            if balanced {
+                (last, trust) = (None, escape.abs());
+                escape *= -TURNED_BACK;
+            }
+            let turned_back = |step: &DVector<f64>| last.as_ref().is_some_and(|last| last.dot(step) < 0.0);
+            if downhill && turned_back(&step) {
+                trust *= TURNED_BACK;
+                step = within(trust * longest);
+            }
             let slope = gradient.dot(&step).abs();
             let mut tried = None;
             for halving in 0..=HALVINGS {
@@ -265,6 +321,7 @@ impl RigidShaft {
                         let done = closer || small || halving == HALVINGS;
                         tried = Some((trial, next));
                         if done {
+                            trust = (trust * if halving > 0 { HALVED } else { WENT_ON }).min(1.0);
                             break;
                         }
                     }
@@ -276,6 +333,7 @@ impl RigidShaft {
             if let Some((next, next_balance)) = tried {
                 (at, balance) = (next, next_balance);
             }
+            last = Some(step);
             iterations += 1;
         }
     }
@@ -312,7 +370,7 @@ impl RigidShaft {
         }
         let free = |row: usize| self.held[row].is_none();
         let residual = (0..5).filter(|&row| free(row)).map(|row| found.balance.gradient[row].abs());
-        let held = found.curvatures.iter().copied().filter(|curvature| curvature.abs() > HELD);
+        let held = found.curvatures.iter().copied().filter(|curvature| curvature.abs() > found.held);
         Ok(ShaftEquilibrium {
             displacement,
             holding_load: std::array::from_fn(|row| if free(row) { 0.0 } else { gradient[row] }),
@@ -321,8 +379,8 @@ impl RigidShaft {
             iterations: found.iterations,
             residual_n: residual.fold(0.0, f64::max),
             least_stiffness: held.reduce(f64::min),
-            directions_down: found.curvatures.iter().filter(|&&curvature| curvature < -HELD).count(),
-            directions_loose: found.curvatures.iter().filter(|curvature| curvature.abs() <= HELD).count(),
+            directions_down: found.curvatures.iter().filter(|&&curvature| curvature < -found.held).count(),
+            directions_loose: found.curvatures.iter().filter(|curvature| curvature.abs() <= found.held).count(),
         })
     }
 }
