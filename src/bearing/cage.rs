@@ -38,10 +38,23 @@ impl Cage {
         slip: SlipProfile,
         first_ball_angle: f64,
     ) -> Result<Self, BearingError> {
+        Self::rolling(bearing.orders().cage, bearing.balls(), shaft, slip, first_ball_angle)
+    }
+
+    /// The same of so many `balls` that without slip turn `rolling_ratio` times in a turn of the shaft.
+    ///
+    /// # Errors
+    /// As [`new`](Self::new).
+    pub(crate) fn rolling(
+        rolling_ratio: f64,
+        balls: u32,
+        shaft: SpeedProfile,
+        slip: SlipProfile,
+        first_ball_angle: f64,
+    ) -> Result<Self, BearingError> {
         if !first_ball_angle.is_finite() {
             return Err(BearingError(format!("first ball angle {first_ball_angle} rad must be finite")));
         }
-        let rolling_ratio = bearing.orders().cage;
         let times = slip.knot_times(&shaft);
         let piece = |place: usize| {
             let time = times[place];
@@ -62,7 +75,7 @@ impl Cage {
         let pieces = (0..times.len()).map(piece).collect();
         Ok(Self {
             rolling_ratio,
-            spacing: TAU / f64::from(bearing.balls()),
+            spacing: TAU / f64::from(balls),
             rotation: Rotation::new(pieces, first_ball_angle),
             shaft,
             slip,

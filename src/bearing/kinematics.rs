@@ -40,6 +40,19 @@ pub struct DefectOrders {
     pub ball_defect: f64,
 }
 
+impl DefectOrders {
+    /// Of so many balls whose cage turns `cage` times in a turn of the shaft: `gamma = 1 - 2 cage` of the contact angle in force.
+    pub(crate) fn of_cage(balls: f64, diameter_ratio: f64, cage: f64) -> Self {
+        Self::of(balls, diameter_ratio, 1.0 - 2.0 * cage)
+    }
+
+    fn of(balls: f64, diameter_ratio: f64, gamma: f64) -> Self {
+        let cage = 0.5 * (1.0 - gamma);
+        let ball_spin = 0.5 / diameter_ratio * (1.0 - gamma * gamma);
+        Self { cage, outer: balls * cage, inner: balls * (1.0 - cage), ball_spin, ball_defect: 2.0 * ball_spin }
+    }
+}
+
 impl BallRow {
     /// A row of `balls` (1 or more) of `ball_diameter` (m) on a pitch circle of `pitch_diameter` (m)
     /// with `contact_angle` (rad, 0 for a radial bearing, below π/2).
@@ -74,16 +87,7 @@ impl BallRow {
 
     /// All defect orders.
     pub fn orders(&self) -> DefectOrders {
-        let gamma = self.projected_ratio;
-        let cage = 0.5 * (1.0 - gamma);
-        let ball_spin = 0.5 / self.diameter_ratio * (1.0 - gamma * gamma);
-        DefectOrders {
-            cage,
-            outer: self.balls * cage,
-            inner: self.balls * (1.0 - cage),
-            ball_spin,
-            ball_defect: 2.0 * ball_spin,
-        }
+        DefectOrders::of(self.balls, self.diameter_ratio, self.projected_ratio)
     }
 }
 

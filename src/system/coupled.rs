@@ -31,7 +31,7 @@ pub enum ModeSelection {
 
 impl ModeSelection {
     /// Number of lowest modes that the selection keeps.
-    pub(super) fn count(&self, modes: &StructureModes) -> usize {
+    pub(crate) fn count(&self, modes: &StructureModes) -> usize {
         match *self {
             Self::All => modes.count(),
             Self::Count(count) => count.min(modes.count()),

@@ -25,6 +25,12 @@ pub struct LoadedMode {
     pub shaft_share: f64,
     /// Share of the balls.
     pub ball_share: f64,
+    /// Damping over critical; absent where damping is not in the equations.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub damping_ratio: Option<f64>,
+    /// How the shaft goes round: 1 with its rotation on a circle, -1 against it, 0 on a line; absent for a shaft that does not turn.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub whirl: Option<f64>,
 }
 
 /// Modes of ring, housing, shaft and balls, linearised at an equilibrium.
@@ -123,6 +129,8 @@ impl LoadedShapes {
                     structure_share: energy(0..n) / total,
                     shaft_share: energy(n..n + 2) / total,
                     ball_share: energy(n + 2..order) / total,
+                    damping_ratio: None,
+                    whirl: None,
                 };
                 found.push((mode, amplitudes));
             }

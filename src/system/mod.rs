@@ -37,6 +37,7 @@ pub use powers::Powers;
 pub use record::{Column, RecordLayout, RunRecord};
 pub use recorder::Recorder;
 pub use simulated::Simulated;
+pub(crate) use spatial::with_static_vectors;
 pub use spatial::{
     BearingInPlace, SpatialBallLoad, SpatialCondition, SpatialEquilibrium, SpatialLoad, SpatialSetup, SpatialShaft,
     SpatialSystem, Unbalance,

@@ -44,14 +44,14 @@ impl RacewayTable {
         Self::fit(ring.nodes(), kept, &sample)
     }
 
-    /// Table of the radial or the axial displacement of a point of the section of a ring in space, `arm` (m) outside its node radius, by
-    /// the lowest `kept` modes.
+    /// Table of a displacement of a point of the section of a ring in space, `arm` (m) outside its node radius, by the lowest `kept`
+    /// modes: the radial (0), the tangential (1) or the axial one (2).
     pub(crate) fn along_groove(
         RingSeat { ring, first, .. }: &RingSeat,
         modes: &StructureModes,
         kept: usize,
         arm: f64,
-        axial: bool,
+        component: usize,
     ) -> Self {
         let width = TAU / ring.nodes() as f64;
         let sample = |element: usize, xi: f64| -> Vec<f64> {
@@ -59,7 +59,7 @@ impl RacewayTable {
             let Some(rows) = ring.space_rows_at(angle) else {
                 return vec![0.0; kept];
             };
-            let factors = rows.displacement_at(arm, 0.0)[if axial { 2 } else { 0 }];
+            let factors = rows.displacement_at(arm, 0.0)[component];
             let value = |mode: usize| -> f64 {
                 rows.dofs.iter().zip(factors).map(|(dof, factor)| factor * modes.shapes[(first + dof, mode)]).sum()
             };

@@ -240,6 +240,15 @@ impl StructureModes {
         self.squared_frequencies.len()
     }
 
+    /// The lowest of them.
+    pub(crate) fn lowest(&self, kept: usize) -> Self {
+        Self {
+            squared_frequencies: self.squared_frequencies[..kept].to_vec(),
+            shapes: self.shapes.subcols(0, kept).to_owned(),
+            has_more: self.has_more || kept < self.count(),
+        }
+    }
+
     /// The modes below `hz`, and what they leave out of the static response to `loads` [dof x k], as k modes more: a basis
     /// in which a linear coupling through these loads is felt as with all modes, up to terms of order (f / hz)^4.
     ///

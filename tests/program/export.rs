@@ -378,7 +378,11 @@ fn a_condensed_housing_is_exported() {
     assert!(shown.contains("wrote out/coupled/superelement.op4\nwrote out/coupled/superelement_dofs.csv\n"), "{shown}");
     let matrices = read_op4(&out.join("superelement.op4")).unwrap();
     let names: Vec<&str> = matrices.iter().map(Op4Matrix::name).collect();
-    assert_eq!(names, ["KAA", "MAA", "BANDHZ", "COMPLHZ"]);
+    assert_eq!(names, ["KAA", "MAA", "BSET", "BANDHZ", "COMPLHZ"]);
+    // x, y and the rotation about z of each node of the ring
+    let boundary = matrices[2].dense().unwrap();
+    assert_eq!((boundary.nrows(), boundary.ncols()), (72, 2));
+    assert_eq!([3, 4, 5].map(|row| (boundary[(row, 0)], boundary[(row, 1)])), [(1.0, 1.0), (1.0, 2.0), (1.0, 6.0)]);
     assert_eq!(matrices[0].dense().unwrap(), record.stiffness);
     assert_eq!(matrices[1].dense().unwrap(), record.mass);
     let mut table = csv::Reader::from_path(out.join("superelement_dofs.csv")).unwrap();

@@ -12,6 +12,7 @@ mod groups;
 mod init;
 mod inp;
 mod long_run;
+mod machines;
 mod modes;
 mod named_bearing;
 mod report;

@@ -106,6 +106,38 @@ fn rigid_bores_are_stiffer_than_bores_in_the_mean_which_change_nothing() {
     }
 }
 
+/// Rings in both bores and the foot as a node: coordinates of the rings, then of the node. The free block moves rigidly, and a node
+/// in the mean leaves its frequencies as `modes` finds them.
+#[test]
+fn rings_and_a_centre_node_are_one_interface() {
+    let modes =
+        compute_modes(&load(&[FREE, "modes.count=10"]).unwrap(), &Unwatched).unwrap().survey.basis.frequencies_hz;
+    let mut lowest = [0.0; 2];
+    for (tie, lowest) in ["mean", "rigid"].into_iter().zip(&mut lowest) {
+        let foot = format!(
+            "condense.interface={{centres=[{{group=\"foot\",point=[0,-11e-3,15e-3],tie=\"{tie}\"}}],rings=true}}"
+        );
+        let result = condensed(&[FREE, SENSOR, BAND, &foot]);
+        for check in &result.checks {
+            assert!(check.ok(), "{tie}: {check:?}");
+        }
+        for name in ["rigid modes", "rigid motions carried", "frequencies"] {
+            assert!(result.checks.iter().any(|check| check.name == name), "{tie}: {name}");
+        }
+        assert_eq!(result.stage.condensed.superelement.interface_dof, 2 * 6 * 24 + 6);
+        let full = result.full.unwrap();
+        let largest = full.relative_errors.iter().flatten().fold(0.0_f64, |largest, error| largest.max(error.abs()));
+        assert!(largest < 1e-2, "{tie}: {largest}");
+        *lowest = full.frequencies_hz[6];
+        if tie == "mean" {
+            for (found, expected) in full.frequencies_hz.iter().zip(&modes).skip(6) {
+                assert!((found / expected - 1.0).abs() < 1e-8, "{found} {expected}");
+            }
+        }
+    }
+    assert!(lowest[1] > lowest[0], "{lowest:?}");
+}
+
 #[test]
 fn what_contradicts_itself_is_refused_by_name() {
     let end = |set: &[&str]| load(set).unwrap_err();
@@ -126,6 +158,22 @@ fn what_contradicts_itself_is_refused_by_name() {
     ] {
         let found = end(&[&set]);
         assert!(found.contains(expected), "{set}: {found}");
+    }
+    for (interface, expected) in [
+        ("{group=\"foot\",rings=true}", "`rings` beside `group` or `nodes`"),
+        (
+            "{centres=[{group=\"rear bore\",point=[0,0,0],tie=\"mean\"}],rings=true}",
+            "belongs to two interfaces, \"ring\"",
+        ),
+    ] {
+        let set = format!("condense.interface={interface}");
+        let found = load(&[&set]).and_then(|case| {
+            compute_condense(&case, Comparison::None, &Unwatched)
+                .map(|_| String::new())
+                .map_err(|error| error.to_string())
+        });
+        let found = found.unwrap_err();
+        assert!(found.contains(expected), "{interface}: {found}");
     }
     let found = end(&["bearing=6204"]);
     assert!(found.contains("`bearings`: found `bearings` beside [bearing], expected one of the two"), "{found}");

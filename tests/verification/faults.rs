@@ -34,7 +34,7 @@ fn every_fault_has_its_own_order() {
     let twice = |example: &str| starts.map(|start| run(example, &[start]));
     let mean = |[a, b]: &[RunResult; 2], of: &dyn Fn(&RunResult) -> f64| 0.5 * (of(a) + of(b));
     let healthy = twice("healthy");
-    let orders = healthy[0].scene.setup.geometry.orders();
+    let orders = healthy[0].machine.in_plane().unwrap().scene.setup.geometry.orders();
     let lines = [orders.outer, orders.inner, orders.ball_defect].map(|order| 21.0 * order);
     for (example, own) in [("outer-dent", 0), ("inner-dent", 1), ("ball-flat", 2)] {
         let faulty = twice(example);
@@ -82,7 +82,7 @@ fn a_turning_dent_is_heard_under_the_load() {
     let mut power = [(0.0, 0); 2];
     for (&time, acceleration) in times.iter().zip(signal.values()) {
         // the dent's height, its angle being the shaft's
-        let height = result.scene.setup.cage.shaft().angle(time).sin();
+        let height = result.machine.in_plane().unwrap().scene.setup.cage.shaft().angle(time).sin();
         if time > 0.05 && height.abs() > 0.5 {
             let (sum, count) = &mut power[usize::from(height > 0.0)];
             *sum += acceleration * acceleration;

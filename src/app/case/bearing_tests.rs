@@ -235,7 +235,7 @@ fn keys_of_the_bearing_in_space_are_read() {
     assert_eq!(bearing.thrust_or_default(), Thrust::Positive);
     assert_eq!(bearing.preload, Some(Preload::Force(40.0)));
     let loads = &case.shaft.as_ref().unwrap().loads;
-    assert_eq!(loads[0], Load::Spatial { force: [1.0, -2.0, 30.0], moment: [0.1, 0.0] });
+    assert_eq!(loads[0], Load::Spatial { force: [1.0, -2.0, 30.0], moment: [0.1, 0.0], at: 0.0 });
     assert_eq!(loads[1], Load::Constant([5.0, 6.0]));
     // what case results echo is read again
     let echo = serde_json::to_value(&case).unwrap();

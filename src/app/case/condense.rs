@@ -4,7 +4,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::schema::{one_of, or_table, whole, words};
-use super::union::{Loose, exactly_one, read_as};
+use super::union::{Loose, exactly_one, none_beside, read_as};
 use crate::fe::model::CentreTie;
 
 /// How the housing is condensed onto the ring.
@@ -44,7 +44,24 @@ pub enum Interface {
     /// Nodes of the mesh by gmsh's tags, each with its displacements.
     Nodes(Vec<u64>),
     /// Bores as one node each, with displacements and rotations.
-    Centres(Vec<Centre>),
+    #[serde(untagged)]
+    Centres {
+        /// The nodes.
+        centres: Vec<Centre>,
+        /// Whether the rings of the case come before them.
+        #[serde(skip_serializing_if = "std::ops::Not::not")]
+        rings: bool,
+    },
+}
+
+impl Interface {
+    /// The centre nodes.
+    pub fn centres(&self) -> &[Centre] {
+        match self {
+            Self::Centres { centres, .. } => centres,
+            Self::Ring | Self::Group(_) | Self::Nodes(_) => &[],
+        }
+    }
 }
 
 /// The centre node of a bore.
@@ -69,6 +86,8 @@ struct InterfaceForm {
     nodes: Option<Vec<u64>>,
     /// Bores as one node each, with displacements and rotations: for rotor and multibody programs.
     centres: Option<Vec<Centre>>,
+    /// Whether the rings of the case are part of the interface, before the centre nodes.
+    rings: Option<bool>,
 }
 
 read_as!(Interface, Loose<InterfaceForm>, or_table::<InterfaceForm>(vec![words(&["ring"])]), |form| {
@@ -76,8 +95,11 @@ read_as!(Interface, Loose<InterfaceForm>, or_table::<InterfaceForm>(vec![words(&
     const ONE: &str = "one of `group`, `nodes`, `centres`";
     match form {
         Loose::Word(word) if word == "ring" => Ok(Self::Ring),
-        Loose::Table(InterfaceForm { group, nodes, centres }) => {
-            exactly_one([group.map(Self::Group), nodes.map(Self::Nodes), centres.map(Self::Centres)], ONE)
+        Loose::Table(InterfaceForm { group, nodes, centres, rings }) => {
+            let other = [("rings", rings.is_some() && centres.is_none())];
+            none_beside(&other, "`group` or `nodes`", "`rings` beside `centres` alone")?;
+            let centres = centres.map(|centres| Self::Centres { centres, rings: rings.unwrap_or(false) });
+            exactly_one([group.map(Self::Group), nodes.map(Self::Nodes), centres], ONE)
         }
         other => Err(other.mismatch(&["ring"], FORMS)),
     }

@@ -36,6 +36,10 @@ pub struct DentDefect {
     /// Extent across the rolling direction; not felt in the plane, and there with [`DentProfile::Surface`].
     #[serde(skip_serializing_if = "Option::is_none")]
     pub width: Option<f64>,
+    /// Place of its middle across the groove: arc from the groove's bottom, towards +z; with `width`. `None`: under the balls, whatever
+    /// their contact angle.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub across: Option<f64>,
     /// Greatest depth below the undeformed race, below the ball's radius.
     pub depth: f64,
     /// What of the dent is felt.
@@ -146,6 +150,9 @@ struct DefectForm {
     length: Option<f64>,
     /// Of a dent: extent across the rolling direction, > 0; needed by `profile = "surface"`.
     width: Option<f64>,
+    /// Of a dent: place of its middle across the groove, an arc from the groove's bottom towards +z; needs `width`. Absent: under the
+    /// balls, whatever their contact angle.
+    across: Option<f64>,
     /// Greatest depth, > 0 and below the ball's radius.
     depth: Option<f64>,
     /// What of a dent is felt, or the file of a measured profile.
@@ -171,16 +178,17 @@ fn kinds() -> Value {
             "required": ["angle_deg", "length", "depth"],
             "not": none_of(&["ball", "flat_radius"]),
             "anyOf": [{ "properties": { "profile": { "enum": [IN_PLANE] } } }, { "required": ["width"] }],
+            "dependencies": { "across": ["width"] },
         },
         {
             "properties": { "on": race, "profile": { "type": "object" } },
             "required": ["angle_deg", "profile"],
-            "not": none_of(&["ball", "flat_radius", "length", "width", "depth", "rim_radius", "curvature"]),
+            "not": none_of(&["ball", "flat_radius", "length", "width", "across", "depth", "rim_radius", "curvature"]),
         },
         {
             "properties": { "on": { "enum": ["ball"] }, "profile": { "enum": [IN_PLANE] } },
             "required": ["ball", "flat_radius", "depth"],
-            "not": none_of(&["length", "width"]),
+            "not": none_of(&["length", "width", "across"]),
         },
     ])
 }
@@ -202,7 +210,7 @@ read_as!(Defect, DefectForm, |form| {
         None => DentProfile::default(),
         Some(Profile::Dent(profile)) => *profile,
         Some(Profile::File(file)) => {
-            let of_dent = given!(form: length, width, depth, rim_radius, curvature);
+            let of_dent = given!(form: length, width, across, depth, rim_radius, curvature);
             none_beside(&of_dent, "a file", "the profile in the file alone")?;
             return Ok(Self::Measured(MeasuredDefect { on, angle_deg, profile: file.clone() }));
         }
@@ -211,11 +219,15 @@ read_as!(Defect, DefectForm, |form| {
     if profile == DentProfile::Surface && form.width.is_none() {
         return Err(mismatch("profile = \"surface\" without `width`", WIDTH));
     }
+    if form.across.is_some() && form.width.is_none() {
+        return Err(mismatch("`across` without `width`", "the dent's extent across the race as `width`"));
+    }
     Ok(Self::Dent(DentDefect {
         on,
         angle_deg,
         length: form.length.ok_or_else(|| missing("length"))?,
         width: form.width,
+        across: form.across,
         depth: form.depth.ok_or_else(|| missing("depth"))?,
         profile,
         rim_radius: form.rim_radius.unwrap_or(RIM_RADIUS),
@@ -225,7 +237,7 @@ read_as!(Defect, DefectForm, |form| {
 
 fn flat<E: Error>(form: DefectForm) -> Result<FlatDefect, E> {
     const BALL: &str = "keys of a ball's flat";
-    none_beside(&given!(form: length, width), "a ball", BALL)?;
+    none_beside(&given!(form: length, width, across), "a ball", BALL)?;
     match form.profile {
         Some(Profile::File(_)) => {
             return Err(mismatch("a measured `profile` beside a ball", BALL));

@@ -2,7 +2,7 @@
 
 use super::document::Document;
 use super::error::CaseError;
-use super::{Bearing, Case, Defect, Ensemble, Interface, Linearise, Load, Ring, Shaft, Speed, Transient};
+use super::{Bearing, Case, Defect, Ensemble, Interface, Linearise, Ring, Seat, Shaft, Speed, Transient};
 use crate::bearing::spatial::{RaceControl, Thrust};
 use crate::files::{self, FileDigest};
 use sha2::{Digest, Sha256};
@@ -23,6 +23,30 @@ pub enum Purpose {
     Chart,
     /// The bearing in space, at rest.
     Bearing,
+}
+
+/// A case with every part that bearings in space need.
+#[derive(Debug, Clone)]
+pub struct SpatialCase<'c> {
+    /// The whole case.
+    pub case: &'c Case,
+    /// Every ring, which has its bearing.
+    pub seats: Vec<Seat<'c>>,
+    /// The shaft with the inner rings.
+    pub shaft: &'c Shaft,
+    /// Moment of inertia about an axis across the shaft, kg m^2.
+    pub transverse_inertia: f64,
+    /// What the bearing in its plane does not know, in words.
+    pub reason: String,
+}
+
+/// A case with what its model of the bearing needs; see [`Case::asked_run`].
+#[derive(Debug, Clone)]
+pub enum AskedRun<'c> {
+    /// One bearing whose forces stay in its plane.
+    InPlane(RunCase<'c>),
+    /// Bearings that carry axial load and tilt.
+    InSpace(SpatialCase<'c>, &'c Transient),
 }
 
 /// A case with every part that a simulation in time needs; see [`Case::for_run`].
@@ -51,19 +75,22 @@ impl Case {
         let interface = self.seats().iter().any(|seat| seat.ring.tie.is_some())
             || self.superelement().is_some()
             || self.condense.interface != Interface::Ring;
-        if purpose != Purpose::Bearing {
-            self.in_the_plane()?;
-        }
         let (by, needs) = match purpose {
             Purpose::Bearing => return self.for_bearing().map(|_| ()),
-            Purpose::Run => return self.for_run().map(|_| ()),
+            Purpose::Run => return self.asked_run().map(|_| ()),
             Purpose::Chart => return self.for_chart().map(|_| ()),
             Purpose::Modes => {
                 let modelled = self.housing.is_some() || self.ring.is_some();
                 self.needed("`modes`", "[housing] or [ring]", modelled.then_some(()))?;
                 return match self.modes.linearise {
                     Linearise::None => Ok(()),
-                    Linearise::Static => self.at_rest("`modes.linearise = \"static\"`").map(|_| ()),
+                    Linearise::Static => {
+                        let by = "`modes.linearise = \"static\"`";
+                        match self.in_space(by)? {
+                            Some(_) => Ok(()),
+                            None => self.at_rest(by).map(|_| ()),
+                        }
+                    }
                 };
             }
             Purpose::Condense => {
@@ -104,16 +131,11 @@ impl Case {
         })
     }
 
-    /// Refuses keys that only the model of the bearing in space knows: a command of the plane model would ignore them.
-    ///
-    /// # Errors
-    /// [`CaseError`] with the first such key.
-    pub(crate) fn in_the_plane(&self) -> Result<(), CaseError> {
-        let several = self.seats();
-        let several = several.iter().filter(|seat| !seat.label.is_empty());
-        let several = several.filter_map(|seat| Some((seat.key("bearing"), seat.bearing?)));
-        let all = self.bearing.iter().map(|bearing| ("bearing".to_owned(), bearing)).chain(several);
-        let of_bearing = all.flat_map(|(table, bearing)| {
+    /// The first key that only the model of the bearing in space knows, with what it is.
+    fn spatial_key(&self) -> Option<(String, &'static str)> {
+        let seats = self.seats();
+        let bearings = seats.iter().filter_map(|seat| Some((seat, seat.bearing?)));
+        let of_bearing = bearings.flat_map(|(seat, bearing)| {
             [
                 ("contact_angle_deg", bearing.contact_angle_deg.is_some()),
                 // what the plane model has too
@@ -121,26 +143,47 @@ impl Case {
                 ("race_control", bearing.race_control.is_some_and(|control| control != RaceControl::Outer)),
                 ("preload", bearing.preload.is_some()),
             ]
-            .map(|(key, given)| (format!("{table}.{key}"), given))
+            .into_iter()
+            .filter(|(_, given)| *given)
+            .map(|(key, _)| (seat.key(&format!("bearing.{key}")), "a key of the bearing in space"))
+            .chain(bearing.defects.iter().enumerate().filter_map(|(index, defect)| match defect {
+                Defect::Dent(dent) if dent.across.is_some() => {
+                    Some((seat.key(&format!("bearing.defects[{index}].across")), "a place across the groove"))
+                }
+                _ => None,
+            }))
+            .collect::<Vec<_>>()
         });
-        let of_bearing = of_bearing.filter(|(_, given)| *given).map(|(key, _)| key);
-        let loads = self.shaft.iter().flat_map(|shaft| &shaft.loads).enumerate();
-        let spatial = loads.filter(|(_, load)| matches!(load, Load::Spatial { .. }));
-        let of_load = spatial.map(|(index, _)| format!("shaft.loads[{index}]"));
-        match of_bearing.chain(of_load).next() {
-            None => Ok(()),
-            Some(key) => {
-                let (what, expected) = match key.starts_with("shaft") {
-                    true => ("a force along z or a moment", "forces along x and y"),
-                    false => ("a key of the bearing in space", "none: this command's bearing stays in its plane"),
-                };
-                let what = format!("`{key}`: found {what}, expected {expected}");
-                let place = Document::read(&self.source).map(|document| document.place(&key));
-                let place = place.unwrap_or_else(|_| self.source.path.display().to_string());
-                Err(CaseError::at(place, what)
-                    .with_help(Some(format!("leave `{key}` out, or use `plummer bearing`, which knows it"))))
-            }
-        }
+        let of_shaft = self.shaft.iter().flat_map(|shaft| {
+            let loads = shaft.loads.iter().enumerate().filter(|(_, load)| !load.is_in_plane());
+            let loads = loads.map(|(index, _)| {
+                (format!("shaft.loads[{index}]"), "a force along z, a moment, or a place off the bearing's centre")
+            });
+            let unbalances = shaft.unbalances.first().map(|_| "unbalances");
+            let centre = shaft.centre.filter(|centre| centre.abs() > 0.0).map(|_| "centre");
+            let keys = unbalances.into_iter().chain(centre);
+            loads.chain(keys.map(|key| (format!("shaft.{key}"), "a place off the bearing's centre")))
+        });
+        of_bearing.chain(of_shaft).next()
+    }
+
+    /// Refuses keys that only the model of the bearing in space knows: a command of the plane model would ignore them.
+    ///
+    /// # Errors
+    /// [`CaseError`] with the first such key.
+    pub(crate) fn in_the_plane(&self) -> Result<(), CaseError> {
+        let Some((key, found)) = self.spatial_key() else {
+            return Ok(());
+        };
+        let what = format!("`{key}`: found {found}, expected none: this command's bearing stays in its plane");
+        let help = format!("leave `{key}` out, or use `plummer run` or `plummer bearing`, which know it");
+        Err(CaseError::at(self.place_of(&key), what).with_help(Some(help)))
+    }
+
+    /// File and line of a key, or the file.
+    fn place_of(&self, key: &str) -> String {
+        let place = Document::read(&self.source).map(|document| document.place(key));
+        place.unwrap_or_else(|_| self.source.path.display().to_string())
     }
 
     /// Returns the parts that `bearing` needs.
@@ -153,7 +196,56 @@ impl Case {
         Ok((bearing, shaft))
     }
 
-    /// Returns the parts that `run` needs.
+    /// Returns the parts that `run` needs: of the bearing in its plane where nothing asks for more.
+    ///
+    /// # Errors
+    /// [`CaseError`] with the first table or key that the case lacks.
+    pub fn asked_run(&self) -> Result<AskedRun<'_>, CaseError> {
+        let by = "`run`";
+        let Some(spatial) = self.in_space(by)? else {
+            return self.for_run().map(AskedRun::InPlane);
+        };
+        self.needed(by, "[speed]", self.speed.as_ref())?;
+        let transient = self.needed(by, "[transient]", self.transient.as_ref())?;
+        self.needed(by, "[[sensors]]", self.sensors.first())?;
+        Ok(AskedRun::InSpace(spatial, transient))
+    }
+
+    /// Returns what bearings in space need, which rest under their load; `None` where the bearing in its plane is enough.
+    ///
+    /// # Errors
+    /// [`CaseError`] with the first table or key that the case lacks.
+    pub(crate) fn in_space(&self, by: &str) -> Result<Option<SpatialCase<'_>>, CaseError> {
+        let reason = match (self.bearings.len(), self.spatial_key()) {
+            (0, None) => return Ok(None),
+            (0, Some((key, what))) => format!("`{key}` is {what}"),
+            (count, _) => format!("{count} bearings share the loads of one shaft"),
+        };
+        let seats = self.seats();
+        self.needed(by, "[ring]", seats.first())?;
+        for seat in &seats {
+            self.needed(by, &format!("[{}]", seat.key("bearing")), seat.bearing)?;
+        }
+        let shaft = self.needed(by, "[shaft]", self.shaft.as_ref())?;
+        self.needed(by, "a support in [housing]", self.is_held().then_some(()))?;
+        let transverse_inertia = shaft.transverse_inertia.ok_or_else(|| {
+            let what = format!("shaft.transverse_inertia: found none, expected one, since {reason} and the shaft may tilt");
+            let help = "give the moment of inertia about an axis across the shaft through its centre of mass, in kg m^2: for a \
+                        cylinder m (3 r^2 + l^2) / 12; and shaft.polar_inertia, m r^2 / 2";
+            CaseError::at(self.place_of("shaft"), what).with_help(Some(help.to_owned()))
+        })?;
+        Ok(Some(SpatialCase { case: self, seats, shaft, transverse_inertia, reason }))
+    }
+
+    /// Whether something holds ring or housing to the ground.
+    fn is_held(&self) -> bool {
+        self.seats().iter().any(|seat| !seat.ring.supports.is_empty())
+            || (self.meshed_housing()).is_some_and(|housing| !housing.supports.is_empty())
+            // what holds it is in its stiffness
+            || self.superelement().is_some()
+    }
+
+    /// Returns the parts that `run` needs of a bearing in its plane.
     ///
     /// # Errors
     /// [`CaseError`] with the first table that the case lacks.
@@ -188,11 +280,7 @@ impl Case {
         let ring = self.needed(by, "[ring]", self.ring.as_ref())?;
         let bearing = self.needed(by, "[bearing]", self.bearing.as_ref())?;
         let shaft = self.needed(by, "[shaft]", self.shaft.as_ref())?;
-        let held = !ring.supports.is_empty()
-            || (self.meshed_housing()).is_some_and(|housing| !housing.supports.is_empty())
-            // what holds it is in its stiffness
-            || self.superelement().is_some();
-        self.needed(by, "a support in [housing] or [ring]", held.then_some(()))?;
+        self.needed(by, "a support in [housing] or [ring]", self.is_held().then_some(()))?;
         Ok((ring, bearing, shaft))
     }
 

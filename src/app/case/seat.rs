@@ -82,6 +82,13 @@ impl Case {
         one.chain(several).collect()
     }
 
+    /// The bearings of the case in words: with their rings, or `[bearing]` alone.
+    pub(crate) fn all_bearings(&self) -> Vec<(String, &Bearing)> {
+        let seats = self.seats().into_iter().filter_map(|seat| Some((seat.label.clone(), seat.bearing?)));
+        let alone = self.bearing.iter().filter(|_| !self.has_rings()).map(|bearing| (String::new(), bearing));
+        seats.chain(alone).collect()
+    }
+
     /// Whether the case has a ring, or several.
     pub(crate) fn has_rings(&self) -> bool {
         self.ring.is_some() || !self.bearings.is_empty()

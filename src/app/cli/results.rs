@@ -126,7 +126,7 @@ pub(super) fn write_signals<R: Recording>(
         array.end()?;
     }
     // what the case prescribes, at the instants of the signals
-    let shaft = result.scene.setup.cage.shaft();
+    let shaft = result.machine.shaft_speed();
     let at: [(&str, &dyn Fn(f64) -> f64); 2] =
         [("shaft_speed_hz", &|time| shaft.speed(time) / TAU), ("shaft_angle_rad", &|time| shaft.angle(time))];
     for (name, value) in at {

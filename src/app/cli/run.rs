@@ -7,9 +7,11 @@ use super::results::{Job, warnings, write_scalograms, write_signals};
 use super::{CliError, Outcome, OutputFolder, failure, typed};
 use crate::app::case::{Case, Method, Transient};
 use crate::app::commands::analyze::{SHOWN_WINDOWS, verdict_lines};
-use crate::app::commands::parts::{bearing_table, not_shown};
+use crate::app::commands::parts::not_shown;
 use crate::app::commands::run::unfinished::{RunIdentity, UnfinishedRun};
-use crate::app::commands::run::{Recording, RunEnd, RunResult, compute_kept_run, cost, explain_run, run_report};
+use crate::app::commands::run::{
+    Recording, RunEnd, RunResult, bearing_part, compute_kept_run, cost, explain_run, run_report,
+};
 use crate::app::error::ComputeError;
 use crate::numerics::ode::{BlowUp, MOST_STEPS_PER_INTERVAL, StepLimit};
 use crate::report::{quantity, significant};
@@ -159,8 +161,8 @@ fn smaller_steps(blow_up: &BlowUp, asked: Option<&Transient>) -> String {
 }
 
 fn summary<R: Recording>(case: &Case, result: &RunResult<R>, wall_s: f64) -> String {
-    let (scene, simulation) = (&result.scene, &result.simulation);
-    let mut lines = vec![bearing_table(&scene.setup, &scene.contacts, Some(&scene.equilibrium)).plain()];
+    let simulation = &result.simulation;
+    let mut lines = vec![bearing_part(&result.machine).plain()];
     lines.push(format!(
         "{} s simulated in {} s, with model, choice and report {} s: {} steps of {} ({}), {} of {} modes{}, {} s of computing per simulated second",
         significant(simulation.simulated_s, 4),
@@ -170,14 +172,14 @@ fn summary<R: Recording>(case: &Case, result: &RunResult<R>, wall_s: f64) -> Str
         quantity(simulation.step_s(), "s"),
         simulation.method.name(),
         simulation.modes,
-        result.scene.stage.structure.dof(),
+        result.machine.stage().structure.dof(),
         if simulation.residual { " with static residual" } else { "" },
         cost(simulation.realtime_factor()),
     ));
     lines.push(result.estimate_sentence());
     for window in result.windows.iter().take(SHOWN_WINDOWS) {
         let [rms, peak] = [window.rms, window.peak].map(|value| significant(value, 3));
-        let mut said = verdict_lines(window, |diagnosis| not_shown(case, diagnosis));
+        let mut said = verdict_lines(window, |window| not_shown(case, window));
         said.insert(1, format!("  rms {rms} m/s², peak {peak} m/s²"));
         let in_band = window.rms_in_band.and_then(|level| level.beside(window.rms, "m/s²"));
         said.splice(2..2, in_band.map(|text| format!("  rms: {text}")));
@@ -186,7 +188,7 @@ fn summary<R: Recording>(case: &Case, result: &RunResult<R>, wall_s: f64) -> Str
     if let Some(more) = result.windows.len().checked_sub(SHOWN_WINDOWS + 1) {
         lines.push(format!("{} windows more: run.json and the report have them", more + 1));
     }
-    if let Some(imported) = &result.scene.stage.bodies.imported {
+    if let Some(imported) = &result.machine.stage().bodies.imported {
         lines.extend(imported.notes.iter().cloned());
     }
     lines.extend(warnings(&result.warnings));

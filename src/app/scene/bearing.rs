@@ -34,12 +34,7 @@ pub(crate) fn setup_of(
     asked_shaft: &case::Shaft,
 ) -> Result<BearingSetup, ComputeError> {
     let geometry = geometry(case, asked)?;
-    let stiffness = match asked.stiffness {
-        case::ContactStiffness::Hertz => hertz(case, asked, &geometry)?.stiffness(),
-        case::ContactStiffness::Given { inner, outer } => {
-            ContactStiffness::given(inner, outer).map_err(ComputeError::bearing("bearing.stiffness: "))?
-        }
-    };
+    let stiffness = stiffness(case, asked, &geometry)?;
     let (race_defects, flats) = defects(&asked.defects, &geometry, stiffness)?;
     Ok(BearingSetup {
         cage: Cage::new(&geometry, speed(case)?, slip(&asked.slip)?, asked.first_ball_deg.to_radians())
@@ -57,6 +52,20 @@ pub(crate) fn setup_of(
         gravity: asked_shaft.gravity,
         shaft: shaft(asked_shaft),
     })
+}
+
+/// Stiffness of the contacts in the plane: by Hertz, or given.
+pub(super) fn stiffness(
+    case: &Case,
+    asked: &case::Bearing,
+    geometry: &BearingGeometry,
+) -> Result<ContactStiffness, ComputeError> {
+    match asked.stiffness {
+        case::ContactStiffness::Hertz => Ok(hertz(case, asked, geometry)?.stiffness()),
+        case::ContactStiffness::Given { inner, outer } => {
+            ContactStiffness::given(inner, outer).map_err(ComputeError::bearing("bearing.stiffness: "))
+        }
+    }
 }
 
 /// Hertz contacts of both races from geometry and materials, whichever stiffness the case uses; `None` without a bearing.
@@ -149,13 +158,12 @@ pub(crate) fn slip(asked: &Slip) -> Result<SlipProfile, ComputeError> {
 
 /// The shaft and its loads.
 pub(crate) fn shaft(asked: &case::Shaft) -> Shaft {
+    // `Case::in_the_plane` refuses more than these two components
     let load = |load: &Load| match load {
         Load::Constant(force) => LoadProfile::constant(*force),
-        // `Case::in_the_plane` refuses more than these two components
-        Load::Spatial { force: [x, y, _], .. } => LoadProfile::constant([*x, *y]),
-        Load::Profile(points) => {
-            let points: Vec<_> = points.iter().map(|p| (p.time, p.force)).collect();
-            LoadProfile::through(&points)
+        other => {
+            let points = other.in_space().1;
+            LoadProfile::through(&points.iter().map(|(time, [x, y, ..])| (*time, [*x, *y])).collect::<Vec<_>>())
         }
     };
     Shaft { mass: asked.mass, unbalance: asked.unbalance, loads: asked.loads.iter().map(load).collect() }

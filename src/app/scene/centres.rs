@@ -3,7 +3,8 @@
 use super::housing::AssembledHousing;
 use crate::app::case;
 use crate::app::error::ComputeError;
-use crate::fe::model::{CentreNode, HousingPartition};
+use crate::fe::model::{CentreNode, HousingModel, HousingPartition, RingTie, Rings};
+use crate::fe::reduction::Attached;
 use crate::formats::DofLabel;
 use crate::numerics::linalg::DenseMatrix;
 
@@ -61,6 +62,49 @@ impl Centres {
             kinds.map(|&kind| DofLabel::centre(place as u64, kind, node.point)).collect::<Vec<_>>()
         };
         self.nodes.iter().enumerate().flat_map(of_node).collect()
+    }
+}
+
+/// Rings in some bores and centre nodes of others: coordinates of the rings first.
+#[derive(Debug, Clone)]
+pub struct RingsAndCentres {
+    /// The rings.
+    pub rings: Rings,
+    /// How they sit in their bores.
+    pub tie: RingTie,
+    /// The centre nodes.
+    pub centres: Centres,
+    partition: HousingPartition,
+    /// Stiffness and mass of the rings over all coordinates.
+    of_rings: [DenseMatrix; 2],
+}
+
+impl RingsAndCentres {
+    /// Joins the two.
+    ///
+    /// # Errors
+    /// [`ComputeError::Model`] for a node that belongs to both.
+    pub(super) fn of(model: &HousingModel, rings: Rings, tie: RingTie, centres: Centres) -> Result<Self, ComputeError> {
+        let partition = HousingPartition::joined(model, &[("ring", tie.partition()), ("centres", &centres.partition)])?;
+        let (own, order) = (rings.dof(), partition.tie.cols());
+        let of_rings = [rings.stiffness(), rings.mass()].map(|matrix| {
+            DenseMatrix::from_fn(order, order, |row, column| match row.max(column) < own {
+                true => matrix[(row, column)],
+                false => 0.0,
+            })
+        });
+        Ok(Self { rings, tie, centres, partition, of_rings })
+    }
+
+    /// How the housing's degrees of freedom are split.
+    pub(super) fn partition(&self) -> &HousingPartition {
+        &self.partition
+    }
+
+    /// What sits on the interface: the rings, nothing on the centre nodes.
+    pub(super) fn attached(&self) -> Attached<'_> {
+        let [stiffness, mass] = &self.of_rings;
+        Attached { stiffness, mass }
     }
 }
 

@@ -1,6 +1,6 @@
 //! The housing of a case, condensed on the interface that the case asks for.
 
-use super::centres::Centres;
+use super::centres::{Centres, RingsAndCentres};
 use super::housing::AssembledHousing;
 use super::places::{PlaceBodies, of_housing, of_rings};
 use super::ring::{Boundary, rings_and_tie};
@@ -8,7 +8,7 @@ use crate::app::case::{Case, FixedInterfaceModes, Interface, Rule};
 use crate::app::error::ComputeError;
 use crate::fe::assembly::{CoupledMatrices, StructuralStiffness, SystemMatrices};
 use crate::fe::modal::{Bore, Mechanisms, rigid_motions, ring_motions};
-use crate::fe::model::{HousingModel, NodeInterface};
+use crate::fe::model::{HousingModel, NodeInterface, RingTie};
 use crate::fe::reduction::{BasisChoice, BasisSize, CraigBampton, ReductionError, RigidMotions, craig_bampton_watched};
 use crate::formats::DofLabel;
 use crate::numerics::Watch;
@@ -75,7 +75,15 @@ impl CondensedHousing {
                 let nodes: Vec<usize> = group.nodes.iter().copied().filter(used).collect();
                 Boundary::Nodes(NodeInterface::new(&housing.model, &nodes))
             }
-            Interface::Centres(asked) => Boundary::Centres(Centres::of(&housing, asked)?),
+            Interface::Centres { centres, rings } => {
+                let centres = Centres::of(&housing, centres)?;
+                match rings.then(|| rings_and_tie(case, Some(&housing))).transpose()? {
+                    Some((rings, Some(tie))) => {
+                        Boundary::Both(Box::new(RingsAndCentres::of(&housing.model, rings, tie, centres)?))
+                    }
+                    _ => Boundary::Centres(centres),
+                }
+            }
             Interface::Nodes(tags) => Boundary::Nodes(NodeInterface::new(&housing.model, &nodes_of(&housing, tags)?)),
         };
         if let Boundary::Nodes(nodes) = &boundary
@@ -157,6 +165,7 @@ impl CondensedHousing {
     pub(crate) fn interface_labels(&self) -> Vec<DofLabel> {
         match &self.boundary {
             Boundary::Rings(bodies) => of_rings(&bodies.0),
+            Boundary::Both(both) => of_rings(&both.rings).into_iter().chain(both.centres.labels()).collect(),
             Boundary::Centres(centres) => centres.labels(),
             Boundary::Nodes(_) => {
                 let labels = of_housing(&self.housing.model, None);
@@ -171,14 +180,21 @@ impl CondensedHousing {
         let model = &self.housing.model;
         let about = model.frame().centre();
         let motions = rigid_motions(model.coordinates(), model.dimension(), about);
+        let of_partition = |tie: &RingTie, motions: DenseMatrix| match tie.rotation() {
+            Some(rotation) => transpose_times_dense(rotation, &motions),
+            None => motions,
+        };
         match &self.boundary {
-            Boundary::Rings(bodies) => RigidMotions {
-                interface: ring_motions(&bodies.0, about),
-                housing: match bodies.1.rotation() {
-                    Some(rotation) => transpose_times_dense(rotation, &motions),
-                    None => motions,
-                },
-            },
+            Boundary::Rings(bodies) => {
+                RigidMotions { interface: ring_motions(&bodies.0, about), housing: of_partition(&bodies.1, motions) }
+            }
+            Boundary::Both(both) => {
+                let (of_rings, of_centres) = (ring_motions(&both.rings, about), both.centres.motions(about));
+                RigidMotions {
+                    interface: faer::concat![[of_rings], [of_centres]],
+                    housing: of_partition(&both.tie, motions),
+                }
+            }
             Boundary::Centres(centres) => RigidMotions { interface: centres.motions(about), housing: motions },
             Boundary::Nodes(nodes) => {
                 let driven = &nodes.partition.driven;
@@ -202,6 +218,7 @@ impl CondensedHousing {
         let AssembledHousing { model, matrices, .. } = &self.housing;
         match &self.boundary {
             Boundary::Rings(bodies) => CoupledMatrices::new(matrices, &bodies.1, &bodies.0),
+            Boundary::Both(both) => CoupledMatrices::with_centres(matrices, &both.tie, &both.rings, both.partition()),
             Boundary::Centres(_) => CoupledMatrices::of_partition(matrices, self.boundary.partition()),
             Boundary::Nodes(_) => CoupledMatrices::of_housing(matrices.clone(), model),
         }

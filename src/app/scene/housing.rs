@@ -64,7 +64,7 @@ pub(crate) fn description(case: &Case, housing: &case::Housing) -> Result<Housin
         Interface::Ring => (Vec::new(), Vec::new()),
         Interface::Group(group) => (vec![group.clone()], Vec::new()),
         Interface::Nodes(tags) => (Vec::new(), tags.clone()),
-        Interface::Centres(centres) => (centres.iter().map(|centre| centre.group.clone()).collect(), Vec::new()),
+        Interface::Centres { centres, .. } => (centres.iter().map(|centre| centre.group.clone()).collect(), Vec::new()),
     };
     attached.extend(case.seats().iter().filter_map(|seat| seat.ring.tie.as_ref()).map(|tie| tie.group.clone()));
     Ok(HousingDescription {

@@ -4,7 +4,7 @@
 //! them, and the sentence says which unit the value looks like.
 
 use super::ring::metres;
-use crate::app::case::{self, Case, Load, short};
+use crate::app::case::{self, Case, short};
 use crate::bearing::RaceContacts;
 use crate::fe::element::continuum::measure;
 use crate::fe::mesh::BoundingBox;
@@ -269,11 +269,9 @@ pub(super) fn contacts(case: &Case, setup: &BearingSetup, hertz: &RaceContacts) 
         }
     }
     let loads = case.shaft.iter().flat_map(|shaft| &shaft.loads);
-    let later = loads.filter_map(|load| match load {
-        Load::Constant(_) | Load::Spatial { .. } => None,
-        Load::Profile(points) => {
-            Some(points.iter().map(|point| point.force[0].hypot(point.force[1])).fold(0.0, f64::max))
-        }
+    let later = loads.filter_map(|load| match load.in_space().1.as_slice() {
+        [_] => None,
+        points => Some(points.iter().map(|(_, [x, y, ..])| x.hypot(*y)).fold(0.0, f64::max)),
     });
     let load: f64 = later.sum();
     let force = STRIBECK * load / f64::from(setup.geometry.balls());

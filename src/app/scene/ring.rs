@@ -1,6 +1,6 @@
 //! The ring of a case: its section and supports, its tie to the bore, and the bore itself.
 
-use super::centres::Centres;
+use super::centres::{Centres, RingsAndCentres};
 use super::housing::{AssembledHousing, frame, material};
 use crate::app::case::{self, Case, other_size, short};
 use crate::app::error::ComputeError;
@@ -155,6 +155,8 @@ pub enum Boundary {
     Nodes(NodeInterface),
     /// Centre nodes of bores.
     Centres(Centres),
+    /// Rings through their tie, then centre nodes of other bores.
+    Both(Box<RingsAndCentres>),
 }
 
 impl Boundary {
@@ -164,6 +166,7 @@ impl Boundary {
             Self::Rings(bodies) => bodies.1.partition(),
             Self::Nodes(nodes) => &nodes.partition,
             Self::Centres(centres) => centres.partition(),
+            Self::Both(both) => both.partition(),
         }
     }
 
@@ -176,13 +179,18 @@ impl Boundary {
 
     /// What sits on the interface.
     pub fn attached(&self) -> Option<Attached<'_>> {
-        self.rings().map(|(rings, _)| Attached { stiffness: rings.stiffness(), mass: rings.mass() })
+        match self {
+            Self::Rings(bodies) => Some(Attached { stiffness: bodies.0.stiffness(), mass: bodies.0.mass() }),
+            Self::Both(both) => Some(both.attached()),
+            Self::Nodes(_) | Self::Centres(_) => None,
+        }
     }
 
     /// Rings and tie, if that is what it is.
     pub(crate) fn rings(&self) -> Option<(&Rings, &RingTie)> {
         match self {
             Self::Rings(bodies) => Some((&bodies.0, &bodies.1)),
+            Self::Both(both) => Some((&both.rings, &both.tie)),
             Self::Nodes(_) | Self::Centres(_) => None,
         }
     }

@@ -1,10 +1,11 @@
 //! The bearing of a case in space, and what loads it.
 
-use super::bearing::{contacts_of, geometry, shaft};
-use crate::app::case::{self, Case, ContactStiffness, Load, Preload};
+use super::bearing::{contacts_of, geometry};
+use crate::app::case::{self, Case, ContactStiffness, Preload};
 use crate::app::error::ComputeError;
 use crate::bearing::ContactStiffness as Stiffness;
 use crate::bearing::spatial::{MountedBearing, RigidShaft, ShaftLoad, SpatialBearing};
+use crate::system::LoadProfile;
 use std::f64::consts::TAU;
 
 /// A bearing on a rigid shaft, with the load that it carries.
@@ -71,7 +72,7 @@ impl SpatialScene {
 }
 
 /// The bearing that is asked for.
-fn spatial_bearing(case: &Case, asked: &case::Bearing) -> Result<SpatialBearing, ComputeError> {
+pub(super) fn spatial_bearing(case: &Case, asked: &case::Bearing) -> Result<SpatialBearing, ComputeError> {
     let geometry = geometry(case, asked)?;
     let contacts = contacts_of(case, asked)?;
     let moduli = [contacts.inner.effective_modulus, contacts.outer.effective_modulus];
@@ -87,22 +88,31 @@ fn spatial_bearing(case: &Case, asked: &case::Bearing) -> Result<SpatialBearing,
     })
 }
 
-/// Loads and weight at an instant.
+/// Loads and weight at an instant, about the bearing's centre.
 fn load_of(asked: &case::Shaft, time: f64) -> ShaftLoad {
     let [gx, gy] = asked.gravity;
-    let mut load = ShaftLoad { force: [asked.mass * gx, asked.mass * gy, 0.0], ..ShaftLoad::default() };
-    for profile in shaft(asked).loads {
-        let [x, y] = profile.at(time);
-        load.force[0] += x;
-        load.force[1] += y;
-    }
+    let weight = [asked.mass * gx, asked.mass * gy];
+    let mut load = ShaftLoad { force: [weight[0], weight[1], 0.0], ..ShaftLoad::default() };
+    let mut turn = |at: f64, [x, y]: [f64; 2], [a, b]: [f64; 2]| {
+        load.moment[0] += a - at * y;
+        load.moment[1] += b + at * x;
+    };
+    turn(asked.centre.unwrap_or(0.0), weight, [0.0; 2]);
     for part in &asked.loads {
-        if let Load::Spatial { force, moment } = part {
-            // the plane part is in the profiles above
-            load.force[2] += force[2];
-            load.moment[0] += moment[0];
-            load.moment[1] += moment[1];
-        }
+        let (at, profile) = spatial_load(part);
+        let [x, y, z, a, b] = profile.at(time);
+        turn(at, [x, y], [a, b]);
+        load.force = [load.force[0] + x, load.force[1] + y, load.force[2] + z];
     }
     load
+}
+
+/// A load of the case: its place from the first bearing's centre (m), and force and moment over time.
+pub(super) fn spatial_load(asked: &case::Load) -> (f64, LoadProfile<5>) {
+    let (at, points) = asked.in_space();
+    let profile = match (asked, points.as_slice()) {
+        (case::Load::Constant(_) | case::Load::Spatial { .. }, [(_, only)]) => LoadProfile::constant(*only),
+        (_, points) => LoadProfile::through(points),
+    };
+    (at, profile)
 }

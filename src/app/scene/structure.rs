@@ -168,7 +168,7 @@ impl OnRings {
                 let bodies = RingsInHousing { housing: Some(housing), tie: Some(tie), ..RingsInHousing::alone(rings) };
                 Ok((bodies, of_mesh))
             }
-            Boundary::Nodes(_) | Boundary::Centres(_) => Err(ComputeError::InterfaceOfRing),
+            Boundary::Nodes(_) | Boundary::Centres(_) | Boundary::Both(_) => Err(ComputeError::InterfaceOfRing),
         }
     }
 }

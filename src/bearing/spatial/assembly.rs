@@ -6,6 +6,7 @@
 
 use super::ball::{BallLaw, RaceControl};
 use super::contact::{AngleStiffness, GrooveContact, hertz_at};
+use super::defect::{DamagedGroove, GrooveDefect};
 use super::groove::{Grooves, Thrust};
 use super::ring::{InnerFrame, RingDisplacement};
 use crate::bearing::error::{BearingError, positive, refused};
@@ -27,6 +28,7 @@ pub struct SpatialBearing {
     moduli: [f64; 2],
     pub(super) law: BallLaw,
     thrust: Thrust,
+    defects: Vec<DamagedGroove>,
 }
 
 /// Where the cage stands and how fast the inner ring turns.
@@ -110,7 +112,7 @@ impl SpatialBearing {
             pitch_diameter: 2.0 * geometry.pitch_radius(),
             race_control,
         };
-        Ok(Self { geometry, moduli, law, thrust })
+        Ok(Self { geometry, moduli, law, thrust, defects: Vec::new() })
     }
 
     /// The same bearing with Hertz constants that are given, the same at every angle. Patches stay those of the moduli.
@@ -119,6 +121,30 @@ impl SpatialBearing {
         self.law.inner.stiffness = AngleStiffness::constant(stiffness.inner());
         self.law.outer.stiffness = AngleStiffness::constant(stiffness.outer());
         self
+    }
+
+    /// The same bearing with defects in its grooves, which a transient feels; a rest is that on whole races.
+    ///
+    /// # Errors
+    /// [`BearingError`]: a place or width out of range; defects that overlap.
+    pub fn with_defects(mut self, defects: Vec<GrooveDefect>) -> Result<Self, BearingError> {
+        for defect in defects {
+            let modulus = self.moduli[usize::from(defect.profile.race() == Race::Outer)];
+            let defect = DamagedGroove::new(&self.geometry, defect, modulus)?;
+            if self.defects.iter().any(|other| other.overlaps(&defect)) {
+                return Err(BearingError(format!(
+                    "two defects of the {} race overlap: give one of both",
+                    defect.race()
+                )));
+            }
+            self.defects.push(defect);
+        }
+        Ok(self)
+    }
+
+    /// Its defects.
+    pub(crate) fn defects(&self) -> &[DamagedGroove] {
+        &self.defects
     }
 
     /// Its dimensions.
@@ -139,6 +165,13 @@ impl SpatialBearing {
     /// Which way it may be pushed.
     pub(crate) fn thrust(&self) -> Thrust {
         self.thrust
+    }
+
+    /// Largest pressure of a contact under a load (N) at a contact angle (rad), Pa; zero without load.
+    pub(crate) fn peak_pressure(&self, race: Race, load: f64, angle: f64) -> f64 {
+        let modulus = self.moduli[usize::from(race == Race::Outer)];
+        let hertz = hertz_at(&self.geometry, race, angle.cos().max(0.0), modulus);
+        hertz.map_or(0.0, |hertz| hertz.patch(load).peak_pressure)
     }
 
     /// How far the inner groove's centres stand from the outer ones along the thrust, m, at an axial `displacement`; below zero the
@@ -293,7 +326,7 @@ impl SpatialBearing {
     ///
     /// # Errors
     /// [`BearingError`] for a force that is negative or not finite, or that no displacement below the groove's radius carries.
-    pub fn axial_displacement(&self, force: f64) -> Result<f64, BearingError> {
+    pub(crate) fn axial_displacement(&self, force: f64) -> Result<f64, BearingError> {
         if !(force.is_finite() && force >= 0.0) {
             return refused("axial force", force, "N must be finite and zero or more");
         }

@@ -11,12 +11,13 @@
 //! Frame: x right, y up, z towards the reader, angles counter-clockwise from x.
 //!
 //! # Limitations
-//! Rigid rings; no weight of the balls, no defects, no waviness, no lubricant film, no cage forces; complete grooves without
+//! Rigid rings; no weight of the balls, no defects at rest, no waviness, no lubricant film, no cage forces; complete grooves without
 //! shoulders, so that no ball runs over an edge.
 
 mod assembly;
 mod ball;
 mod contact;
+mod defect;
 mod equilibrium;
 mod groove;
 mod ring;
@@ -29,6 +30,8 @@ pub use ball::RaceControl;
 #[cfg(test)]
 pub(crate) use contact::AngleStiffness;
 pub(crate) use contact::GrooveContact;
+pub use defect::{AcrossGroove, GrooveDefect};
+pub(crate) use defect::{DamagedGroove, DefectState, blending_on, felt_on};
 pub use equilibrium::ShaftEquilibrium;
 pub use groove::Thrust;
 pub(crate) use ring::InnerFrame;

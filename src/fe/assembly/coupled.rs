@@ -32,9 +32,18 @@ pub struct CoupledMotions {
 impl CoupledMatrices {
     /// Couples a housing to the rings in its bores.
     pub fn new(matrices: &SystemMatrices, tie: &RingTie, rings: &Rings) -> Self {
-        let partition = tie.partition();
+        Self::with_centres(matrices, tie, rings, tie.partition())
+    }
+
+    /// The same where the partition has coordinates of centre nodes after those of the rings.
+    pub(crate) fn with_centres(
+        matrices: &SystemMatrices,
+        tie: &RingTie,
+        rings: &Rings,
+        partition: &HousingPartition,
+    ) -> Self {
         let housing_dof = matrices.stiffness.rows();
-        let order = housing_dof + rings.dof();
+        let order = housing_dof + partition.tie.cols();
         let mut recovery = recovery(housing_dof, partition);
         if let Some(rotation) = tie.rotation() {
             recovery = (rotation * &recovery).to_csc();
@@ -42,11 +51,10 @@ impl CoupledMatrices {
         let with_rings = |housing: &SparseMatrix, rings: &DenseMatrix| {
             &congruence(housing, &recovery) + &placed(rings, housing_dof, order)
         };
-        let ring_dofs = housing_dof..order;
         Self {
             stiffness: with_rings(&matrices.stiffness, rings.stiffness()),
             mass: with_rings(&matrices.mass, rings.mass()),
-            free_dofs: partition.interior.iter().copied().chain(ring_dofs).collect(),
+            free_dofs: free_dofs(housing_dof, partition),
             motions: CoupledMotions { recovery, housing_dof, ring_dof: rings.dof() },
         }
     }
@@ -56,12 +64,10 @@ impl CoupledMatrices {
     pub(crate) fn of_partition(matrices: &SystemMatrices, partition: &HousingPartition) -> Self {
         let housing_dof = matrices.stiffness.rows();
         let recovery = recovery(housing_dof, partition);
-        let follows = |coordinate: &usize| !partition.mean.coordinates.contains(coordinate);
-        let driving = (0..partition.tie.cols()).filter(follows).map(|coordinate| housing_dof + coordinate);
         Self {
             stiffness: congruence(&matrices.stiffness, &recovery),
             mass: congruence(&matrices.mass, &recovery),
-            free_dofs: partition.interior.iter().copied().chain(driving).collect(),
+            free_dofs: free_dofs(housing_dof, partition),
             motions: CoupledMotions { recovery, housing_dof, ring_dof: 0 },
         }
     }
@@ -96,6 +102,13 @@ impl CoupledMatrices {
             motions: CoupledMotions { recovery: TripletBuilder::new(0, order).build(), housing_dof: 0, ring_dof },
         }
     }
+}
+
+/// The interior, and the coordinates of the interface that do not only follow.
+fn free_dofs(housing_dof: usize, partition: &HousingPartition) -> Vec<usize> {
+    let driving = |coordinate: &usize| !partition.mean.coordinates.contains(coordinate);
+    let driving = (0..partition.tie.cols()).filter(driving).map(|coordinate| housing_dof + coordinate);
+    partition.interior.iter().copied().chain(driving).collect()
 }
 
 /// Housing displacements in the partition's axes from all coordinates, those of the interface last [housing dof x n].

@@ -38,6 +38,9 @@ use std::sync::Arc;
 /// their frequencies to half of it.
 const LARGEST_CONTRACTION: f64 = 1e-4;
 
+/// Steps of refinement of static solutions where means are held.
+const REFINEMENTS: usize = 2;
+
 /// Smallest eigenvalue of the scaled Gram matrix of the rows of W, below which they say the same twice.
 const DEPENDENT: f64 = 1e-12;
 
@@ -157,10 +160,13 @@ impl Interior {
         let forces = means.gathered(&r);
         let mut x = forces.clone();
         self.factor.solve_columns(&mut x)?;
-        // single unknowns hold h more softly than the means do: a step of refinement takes that round-off away
-        let mut rest = forces - self.problem.stiffness_times(&x);
-        self.factor.solve_columns(&mut rest)?;
-        Ok(means.spread(&(x + rest)))
+        // single unknowns hold h more softly than the means do: refinement takes that round-off away
+        for _ in 0..REFINEMENTS {
+            let mut rest = &forces - self.problem.stiffness_times(&x);
+            self.factor.solve_columns(&mut rest)?;
+            x += rest;
+        }
+        Ok(means.spread(&x))
     }
 
     /// Motions of the interior by `width` interface coordinates from `first` on with the right means, `E C` [interior x width];

@@ -12,6 +12,9 @@ use crate::numerics::linalg::DenseMatrix;
 const BAND: &str = "BANDHZ";
 const COMPLETE: &str = "COMPLHZ";
 
+/// Name of the table of the boundary set.
+const BOUNDARY: &str = "BSET";
+
 /// Stiffness between modes, relative to both diagonals, that is round-off of a computation.
 const BLOCK: f64 = 1e-8;
 
@@ -76,7 +79,8 @@ fn is_modal(stiffness: &DenseMatrix, order: usize, mode: usize) -> bool {
 /// Writes the matrices \[n x n\] of a superelement, whole or not at all: `KAA` (stiffness), `MAA` (mass) and, where there
 /// are any, `BAA` (viscous damping) and `K4AA` (imaginary part of the stiffness), and as 1 x 1 matrices what is known of `BANDHZ` (top of the band that
 /// it was condensed for, Hz) and `COMPLHZ` (the first vector that was left out, Hz). Rows are those of
-/// [`SuperelementRecord::labels`]: the boundary set first, then the modes, as Nastran's external superelements have them.
+/// [`SuperelementRecord::labels`]: the boundary set first, then the modes, as Nastran's external superelements have them. `BSET`
+/// \[b x 2\] has node and component ([`DofDirection::component`](crate::formats::DofDirection::component)) of each of its b rows.
 ///
 /// # Errors
 /// [`FormatError::Data`] for one that contradicts itself, else as [`write_op4`].
@@ -85,6 +89,11 @@ pub fn write_superelement_op4(path: &Path, record: &SuperelementRecord, format: 
     let mut matrices = vec![("KAA", &record.stiffness), ("MAA", &record.mass)];
     matrices.extend(record.damping.iter().map(|c| ("BAA", c)));
     matrices.extend(record.structural.iter().map(|k4| ("K4AA", k4)));
+    let boundary = DenseMatrix::from_fn(record.interface.len(), 2, |row, column| {
+        let label = &record.interface[row];
+        if column == 0 { label.node as f64 } else { label.direction.component() as f64 }
+    });
+    matrices.extend((!record.interface.is_empty()).then_some((BOUNDARY, &boundary)));
     let [band, complete] = [record.band_hz, record.complete_hz].map(|hz| hz.map(|hz| DenseMatrix::full(1, 1, hz)));
     matrices.extend(band.iter().map(|hz| (BAND, hz)));
     matrices.extend(complete.iter().map(|hz| (COMPLETE, hz)));

@@ -4,7 +4,7 @@
 
 use super::DiagnosisError;
 use crate::bearing::kinematics::DefectOrders;
-use crate::bearing::{BearingGeometry, Cage, SpeedProfile};
+use crate::bearing::{Cage, SpeedProfile};
 use crate::numerics::series::TimeWindow;
 use schemars::JsonSchema;
 use serde::Serialize;
@@ -153,8 +153,8 @@ pub enum Kinematics<'a> {
 
 impl<'a> Kinematics<'a> {
     /// Of a simulated bearing, whose motion is known exactly.
-    pub(crate) fn of(cage: &'a Cage, geometry: &BearingGeometry) -> Self {
-        Self::Cage { cage, balls: geometry.balls(), rolling: geometry.orders(), error: 0.0 }
+    pub(crate) fn of(cage: &'a Cage, balls: u32, rolling: DefectOrders) -> Self {
+        Self::Cage { cage, balls, rolling, error: 0.0 }
     }
 
     fn shaft(&self) -> &SpeedProfile {

@@ -1,5 +1,6 @@
 //! The balls of one bearing side by side: constants, and results of the last evaluation.
 
+use super::damage::DamagedRace;
 use super::groove_lanes::{Felt, GrooveLaw};
 use super::setup::BearingInPlace;
 use crate::bearing::RotationCursor;
@@ -20,6 +21,8 @@ pub(super) struct BearingBalls {
     pub rows: [RacewayTable; 2],
     /// Radius rho_o of the circle of the outer groove's centres, m.
     pub base: f64,
+    /// Distance from the axis at which a ball touches the outer race, m.
+    pub race_radius: f64,
     /// Inner groove's centre at rest against the outer one, radial and axial, m.
     pub gap: [f64; 2],
     /// 1 / mass of a ball, 1/kg.
@@ -28,6 +31,10 @@ pub(super) struct BearingBalls {
     pub gyroscopic: f64,
     /// Friction over M_g at inner and outer race, 1/m.
     pub friction: [f64; 2],
+    /// Defects of the inner and the outer race.
+    pub damage: [Option<DamagedRace>; 2],
+    /// Tangential displacement of the outer race by kept modes, where it has defects.
+    pub tangential: Option<RacewayTable>,
     pub cursor: RotationCursor,
     /// Speed of the cage, rad/s, and ball 0 in turns.
     pub cage_speed: f64,
@@ -77,7 +84,9 @@ impl BearingBalls {
         let turns = column(&|j| j as f64 / count as f64, 0.0);
         let oversizes = column(&|_| 0.0, f64::NEG_INFINITY);
         let arm = law.grooves.outer_centres - seat.ring.section().radius;
-        let rows = [0, 1].map(|component| RacewayTable::along_groove(seat, modes, kept, arm, component == 1));
+        let rows = [0, 2].map(|component| RacewayTable::along_groove(seat, modes, kept, arm, component));
+        let damage = DamagedRace::both(&own.bearing, own.contact_damping);
+        let at_race = own.bearing.geometry().outer_race_radius() - seat.ring.section().radius;
         let groups = rows[0].groups;
         let blank = || vec![[[0.0; LANES]; LANES]; groups];
         let balls = turns.into_iter().zip(oversizes).map(|(spacing_turns, oversize)| BallGroup {
@@ -94,10 +103,13 @@ impl BearingBalls {
             outer: GrooveLaw::new(&law.outer, own.contact_damping),
             rows,
             base: law.grooves.outer_centres,
+            race_radius: law.grooves.outer_centres + law.grooves.seats[1],
             gap: [law.grooves.radial_gap, law.grooves.axial_gap],
             mobility: 1.0 / law.mass,
             gyroscopic: 0.1 * law.mass * law.diameter * law.pitch_diameter,
             friction: law.race_control.shares().map(|share| share / law.diameter),
+            tangential: damage[1].is_some().then(|| RacewayTable::along_groove(seat, modes, kept, at_race, 1)),
+            damage,
             cursor: RotationCursor::default(),
             cage_speed: 0.0,
             turn: 0.0,

@@ -25,6 +25,8 @@ pub(super) struct Flow {
     pub modal_damping: f64,
     /// Taken by the damping of contacts.
     pub contact_damping: f64,
+    /// Got by contacts as their stiffness changed along the profiles of defects.
+    pub blending: f64,
 }
 
 impl SpatialSystem {
@@ -83,7 +85,18 @@ impl BearingBalls {
             let (group, lane) = (&self.groups[j / LANES], j % LANES);
             self.inner.energy(&group.inner, lane) + self.outer.energy(&group.outer, lane)
         };
-        (0..self.count).map(ball).sum()
+        let whole: f64 = (0..self.count).map(ball).sum();
+        let felt = |race: usize, j: usize| {
+            let group = &self.groups[j / LANES];
+            if race == 0 {
+                self.inner.energy(&group.inner, j % LANES)
+            } else {
+                self.outer.energy(&group.outer, j % LANES)
+            }
+        };
+        let damage = self.damage.iter().enumerate();
+        let beyond = damage.filter_map(|(race, damage)| Some(damage.as_ref()?.energy_beyond(|j| felt(race, j))));
+        whole + beyond.sum::<f64>()
     }
 
     /// Adds the powers of the balls and of the contacts.
@@ -95,6 +108,11 @@ impl BearingBalls {
         rates: &[f64],
         (amplitudes, velocities, slopes): (&[Lanes], &[Lanes], &mut [Lanes]),
     ) {
+        for damage in self.damage.iter().flatten() {
+            let [driven, blending] = damage.powers();
+            flow.rotation += driven;
+            flow.blending += blending;
+        }
         let mass = 1.0 / self.mobility;
         for j in 0..self.count {
             let (group, lane) = (&self.groups[j / LANES], j % LANES);

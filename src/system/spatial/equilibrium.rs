@@ -10,11 +10,15 @@ use super::setup::{SHAFT, SpatialSetup};
 use crate::bearing::spatial::{Axis, InnerFrame, MountedBearing, RigidShaft, RingDisplacement, ShaftLoad};
 use crate::numerics::linalg::DenseMatrix;
 use crate::system::equilibrium::{Evaluation, Found, HELD, Potential, Search};
-use crate::system::{Structure, SystemError};
+use crate::system::{Structure, StructureModes, SystemError};
 use nalgebra::{DMatrix, DVector, SMatrix, Vector2, Vector3};
 
 /// Unknowns of a ball: its place, and that of the outer groove's centre under it.
 const OF_BALL: usize = 4;
+
+/// What every groove gives way by itself at least, in units of the largest flexibility: few modes do not move all grooves. A micrometre
+/// under a load becomes 1 + 1e-9 of it.
+const LEAST_FLEXIBILITY: f64 = 1e-9;
 
 /// Rounds of friction at most, and the change of it, relative to the largest load on a ball, that ends them.
 const ROUNDS: usize = 50;
@@ -65,7 +69,7 @@ pub struct SpatialCondition {
 
 impl SpatialCondition {
     /// As they are at `time` (s); the rotating unbalance is not included.
-    pub fn at(setup: &SpatialSetup, time: f64) -> Self {
+    pub(crate) fn at(setup: &SpatialSetup, time: f64) -> Self {
         let motions: Vec<_> = setup.bearings.iter().map(|own| own.cage.motion(time)).collect();
         Self {
             time,
@@ -104,7 +108,40 @@ impl SpatialEquilibrium {
         setup: &SpatialSetup,
         condition: &SpatialCondition,
     ) -> Result<Self, SystemError> {
-        let (mut problem, loads, flexibility) = Problem::new(structure, setup, condition)?;
+        Self::by(structure, setup, condition, |loads| structure.static_response(loads))
+    }
+
+    /// The same of a structure that gives way in these modes alone: where a system of these modes rests.
+    ///
+    /// # Errors
+    /// As [`find`](Self::find).
+    pub(crate) fn in_modes(
+        structure: &Structure,
+        modes: &StructureModes,
+        setup: &SpatialSetup,
+        condition: &SpatialCondition,
+    ) -> Result<Self, SystemError> {
+        let shapes = &modes.shapes;
+        Self::by(structure, setup, condition, |loads| {
+            let mut amplitudes = shapes.transpose() * loads;
+            for column in 0..amplitudes.ncols() {
+                for (amplitude, square) in
+                    amplitudes.col_as_slice_mut(column).iter_mut().zip(&modes.squared_frequencies)
+                {
+                    *amplitude /= square;
+                }
+            }
+            Ok(shapes * amplitudes)
+        })
+    }
+
+    fn by(
+        structure: &Structure,
+        setup: &SpatialSetup,
+        condition: &SpatialCondition,
+        response: impl Fn(&DenseMatrix) -> Result<DenseMatrix, SystemError>,
+    ) -> Result<Self, SystemError> {
+        let (mut problem, loads, flexibility) = Problem::new(structure, setup, condition, response)?;
         let mut found = problem.search(problem.start(&flexibility), true)?;
         let mut iterations = found.iterations;
         for _ in 0..ROUNDS {
@@ -127,6 +164,7 @@ impl<'a> Problem<'a> {
         structure: &Structure,
         setup: &'a SpatialSetup,
         condition: &'a SpatialCondition,
+        response: impl Fn(&DenseMatrix) -> Result<DenseMatrix, SystemError>,
     ) -> Result<(Self, DenseMatrix, DMatrix<f64>), SystemError> {
         let mut balls = Vec::new();
         for (index, own) in setup.bearings.iter().enumerate() {
@@ -153,10 +191,13 @@ impl<'a> Problem<'a> {
         for (row, weight) in structure.gravity().iter().enumerate() {
             loads[(row, 2 * count)] = *weight;
         }
-        let responses = structure.static_response(&loads)?;
+        let responses = response(&loads)?;
         let at_grooves = loads.subcols(0, 2 * count).transpose() * &responses;
-        let flexibility =
-            DMatrix::from_fn(2 * count, 2 * count, |i, j| 0.5 * (at_grooves[(i, j)] + at_grooves[(j, i)]));
+        let largest = (0..2 * count).map(|k| at_grooves[(k, k)]).fold(0.0, f64::max);
+        let least = LEAST_FLEXIBILITY * largest;
+        let flexibility = DMatrix::from_fn(2 * count, 2 * count, |i, j| {
+            0.5 * (at_grooves[(i, j)] + at_grooves[(j, i)]) + if i == j { least } else { 0.0 }
+        });
         let stiffness = flexibility.clone().cholesky().ok_or(SystemError::Refused(
             "the structure does not give way at some balls: give the rings more nodes, or sections that are less stiff",
         ))?;

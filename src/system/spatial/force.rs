@@ -9,13 +9,16 @@
 //! The shaft's driving torque follows its axis, so that a change of speed tilts nothing.
 
 use super::balls::{BallGroup, BearingBalls};
+use super::damage::Touch;
+use super::groove_lanes::Felt;
 use super::pose::Pose;
 use super::setup::SHAFT;
+use super::springs::find_own_springs;
 use super::system::{SpatialSystem, Work};
 use crate::bearing::RotationState;
 use crate::numerics::lanes::{self, LANES, Lanes, each, positive, total};
 use crate::numerics::ode::{Divergence, LinearCoordinate, SecondOrderSystem, all_finite};
-use crate::system::raceway::reduced_turn;
+use crate::system::raceway::{Place, RacewayTable, reduced_turn};
 use crate::system::turning::directions;
 use multiversion::multiversion;
 use nalgebra::{Matrix3, Vector3};
@@ -56,6 +59,29 @@ impl SecondOrderSystem for SpatialSystem {
 
     fn force_into(&mut self, t: f64, y: &[f64], v: &[f64], g: &mut [f64]) {
         evaluate(self, t, y, v, g);
+    }
+
+    fn own_springs_into(&self, springs: &mut [f64], sizes: &mut [f64]) {
+        find_own_springs(self, springs, sizes);
+    }
+
+    fn events(&self) -> usize {
+        2 * self.setup.balls()
+    }
+
+    /// The overlap of each ball with the outer and the inner race, m, bearing by bearing.
+    fn events_into(&mut self, t: f64, y: &[f64], v: &[f64], events: &mut [f64]) {
+        let mut force = std::mem::take(&mut self.work.force);
+        force.resize(y.len(), 0.0);
+        evaluate(self, t, y, v, &mut force);
+        self.work.force = force;
+        let overlaps = self.bearings.iter().flat_map(|bearing| {
+            let outer = bearing.all(|ball| &ball.outer.penetration);
+            outer.chain(bearing.all(|ball| &ball.inner.penetration))
+        });
+        for (event, overlap) in events.iter_mut().zip(overlaps) {
+            *event = overlap;
+        }
     }
 
     fn next_change(&self, t: f64) -> f64 {
@@ -105,7 +131,9 @@ pub(super) fn evaluate(system: &mut SpatialSystem, t: f64, y: &[f64], v: &[f64],
     let shaft = system.setup.bearings[0].cage.shaft();
     let shaft = shaft.rotation.at_from(&mut system.shaft_cursor, t);
     let SpatialSystem { work, bearings, setup, gravity, .. } = system;
-    let damped = setup.bearings.iter().any(|own| own.contact_damping > 0.0);
+    let damaged = bearings.iter().any(|bearing| bearing.damage.iter().any(Option::is_some));
+    let damped = damaged || setup.bearings.iter().any(|own| own.contact_damping > 0.0);
+    work.shaft_direction = directions([reduced_turn(shaft.angle), 0.0])[0];
     lanes::set(&mut work.amplitudes, &y[..modes]);
     if damped {
         lanes::set(&mut work.velocities, &v[..modes]);
@@ -121,7 +149,7 @@ pub(super) fn evaluate(system: &mut SpatialSystem, t: f64, y: &[f64], v: &[f64],
         let last = first + 2 * bearing.count;
         bearing.take(&y[first..last], &v[first..last], own.cage.ball_angle(cage.angle, 0), cage.speed);
         bearing.meet_outer(work, damped);
-        let on_ring = bearing.meet_inner(&ring);
+        let on_ring = bearing.meet_inner(&ring, &shaft, work.shaft_direction);
         bearing.add_to_modes(work);
         bearing.ball_forces(setup.gravity, &cage, &mut g[first..last]);
         let force = Vector3::new(on_ring[0], on_ring[1], on_ring[2]);
@@ -149,12 +177,10 @@ pub(super) fn evaluate(system: &mut SpatialSystem, t: f64, y: &[f64], v: &[f64],
 impl SpatialSystem {
     /// Rotating unbalances, centrifugal and by the shaft's angular acceleration; gives their moment, N m.
     #[inline(always)]
-    fn add_unbalance(&mut self, shaft: &RotationState, pose: &Pose, load: &mut [f64; 5]) -> Vector3<f64> {
-        let [[cos, sin], _] = directions([reduced_turn(shaft.angle), 0.0]);
-        self.work.shaft_direction = [cos, sin];
+    fn add_unbalance(&self, shaft: &RotationState, pose: &Pose, load: &mut [f64; 5]) -> Vector3<f64> {
         let mut moment = Vector3::zeros();
         for unbalance in &self.setup.shaft.unbalances {
-            let [x, y] = unbalance_force(unbalance, [cos, sin], shaft);
+            let [x, y] = unbalance_force(unbalance, self.work.shaft_direction, shaft);
             load[0] += x;
             load[1] += y;
             moment += pose.arm(unbalance.place)[0].cross(&Vector3::new(x, y, 0.0));
@@ -214,19 +240,18 @@ impl BearingBalls {
                         table.values_into(places[component].get(lane), &work.amplitudes, own);
                 }
             }
-            let d = [0, 1].map(|k| each(|l| group.place[k][l] - group.moved[k][l]));
+            let (place, moved) = (&group.place, &group.moved);
+            let d = [each(|l| place[0][l] - moved[0][l]), each(|l| place[1][l] - moved[1][l])];
             group.outer = outer.felt([&d[0], &d[1]], &group.oversize);
             group.loads[1] = group.outer.load;
             group.on_outer = group.outer.gradient;
             if damped {
                 let mut race = [[0.0; LANES]; 2];
                 let scale = *cage_speed / TAU;
-                for (component, table) in rows.iter().enumerate() {
-                    for lane in 0..balls {
-                        table.slopes_into(places[component].get(lane), scale, &mut work.scratch_row);
-                        let own = group.rows[component].iter().map(|rows| &rows[lane]);
-                        race[component][lane] =
-                            lanes::dot(own, &work.velocities) + lanes::dot(work.scratch_row.iter(), &work.amplitudes);
+                for (component, (table, race)) in rows.iter().zip(&mut race).enumerate() {
+                    for (lane, race) in race.iter_mut().enumerate().take(balls) {
+                        let at = places[component].get(lane);
+                        *race = velocity(table, at, scale, work, lane, &group.rows[component]);
                     }
                 }
                 let normal = group.outer.normal;
@@ -236,11 +261,16 @@ impl BearingBalls {
                 let (felt, approach) = (&group.outer, &group.approach[1]);
                 let damping = damped_part(felt.load, approach, outer.damping);
                 group.loads[1] = each(|l| felt.load[l] + damping[l]);
-                group.on_outer = [0, 1].map(|k| each(|l| felt.gradient[k][l] + damping[l] * felt.normal[k][l]));
+                group.on_outer = along_normal(felt, &damping);
             }
-            // friction of the gyroscopic moment, (n_z, -n_r) on the ball
-            let factor = self.gyroscopic * *cage_speed * *cage_speed * self.friction[1];
-            if factor != 0.0 {
+        }
+        if self.damage[1].is_some() {
+            self.meet_outer_defects(work);
+        }
+        // friction of the gyroscopic moment, (n_z, -n_r) on the ball
+        let factor = self.gyroscopic * self.cage_speed * self.cage_speed * self.friction[1];
+        if factor != 0.0 {
+            for group in &mut self.groups {
                 let normal = group.outer.normal;
                 let friction = each(|l| if group.outer.penetration[l] > 0.0 { factor * normal[1][l] } else { 0.0 });
                 group.on_outer[0] = each(|l| group.on_outer[0][l] - friction[l] * normal[1][l]);
@@ -249,20 +279,67 @@ impl BearingBalls {
         }
     }
 
+    /// What balls on defects of the outer race feel in the place of the whole one. The race moves a ball along the profile by its
+    /// tangential displacement u: the azimuth on the race is that of the ball less u over the radius.
+    #[inline(never)]
+    fn meet_outer_defects(&mut self, work: &mut Work) {
+        let Self { groups, rows, damage: [_, Some(damage)], tangential: Some(tangential), .. } = self else {
+            return;
+        };
+        damage.met.clear();
+        let (speed, count, per_radius) = (self.cage_speed, self.count, 1.0 / self.race_radius);
+        for (number, group) in groups.iter_mut().enumerate() {
+            let inside = damage.inside([&group.direction[0], &group.direction[1]]);
+            for (lane, &inside) in inside.iter().enumerate().take(count - number * LANES) {
+                // the opposite would leave out what is not a number
+                if inside < 0.0 {
+                    continue;
+                }
+                let race = [0, 1].map(|k| {
+                    let at = rows[k].locate(&group.turn).get(lane);
+                    velocity(&rows[k], at, speed / TAU, work, lane, &group.rows[k])
+                });
+                let at = tangential.locate(&group.turn).get(lane);
+                tangential.slopes_into(at, speed / TAU, &mut work.scratch_row);
+                let driven = speed - per_radius * lanes::dot(work.scratch_row.iter(), &work.amplitudes);
+                let row = &mut work.scratch_row;
+                let shift = tangential.values_into(at, &work.amplitudes, row.iter_mut());
+                let moved = lanes::dot(row.iter(), &work.velocities);
+                let [radial, axial] = [0, 1].map(|k| group.rate[k][lane] - race[k]);
+                let place = Touch {
+                    d: [0, 1].map(|k| group.place[k][lane] - group.moved[k][lane]).into(),
+                    azimuth: TAU * group.turn[lane] - per_radius * shift,
+                    rates: Vector3::new(radial, axial, driven - per_radius * moved),
+                    driven,
+                };
+                if let Some(met) = damage.meet(number * LANES + lane, lane, place, &mut group.outer) {
+                    let force = met.gradient();
+                    (group.approach[1][lane], group.loads[1][lane]) = (met.approach, met.state.load + met.damped);
+                    (group.on_outer[0][lane], group.on_outer[1][lane]) = (force.x, force.y);
+                    lanes::add_scaled(&mut work.modal_force, per_radius * force.z, &work.scratch_row);
+                }
+            }
+        }
+    }
+
     /// Contacts with the inner race: what they do to the ring.
     #[inline(always)]
-    fn meet_inner(&mut self, ring: &InnerRing) -> OnRing {
+    fn meet_inner(&mut self, ring: &InnerRing, shaft: &RotationState, [c, s]: [f64; 2]) -> OnRing {
         let r = &ring.rotation;
         let [cx, cy, cz] = [ring.centre.x, ring.centre.y, ring.centre.z];
         let [base, gap, damping, speed] = [self.base, self.gap[0], self.inner.damping, self.cage_speed];
         let friction = self.gyroscopic * speed * speed * self.friction[0];
         let mut sums = [[0.0; LANES]; 6];
-        for group in &mut self.groups {
+        let damage = &mut self.damage[0];
+        if let Some(damage) = damage {
+            damage.met.clear();
+        }
+        for (number, group) in self.groups.iter_mut().enumerate() {
             let ([cos, sin], [radial, axial]) = (&group.direction, &group.place);
             let rho = each(|l| base + radial[l]);
             let b = [each(|l| rho[l] * cos[l] - cx), each(|l| rho[l] * sin[l] - cy), each(|l| axial[l] - cz)];
             // p = R^T b
-            let p = [0, 1, 2].map(|i| each(|l| r[(0, i)] * b[0][l] + r[(1, i)] * b[1][l] + r[(2, i)] * b[2][l]));
+            let p = turned_back(r, &b);
             let across = each(|l| (p[0][l] * p[0][l] + p[1][l] * p[1][l]).sqrt());
             let inverse = each(|l| 1.0 / across[l]);
             // |p| - rho without the difference of large numbers: |p|^2 - base^2 over their sum would gain nothing beside sqrt
@@ -272,17 +349,44 @@ impl BearingBalls {
             group.loads[0] = felt.load;
             let mut gradient = felt.gradient;
             let out = [each(|l| p[0][l] * inverse[l]), each(|l| p[1][l] * inverse[l])];
-            if damping > 0.0 {
-                let rates = inner_rates(group, ring, speed, &rho, &b);
-                let moved = [0, 1, 2]
-                    .map(|i| each(|l| r[(0, i)] * rates[0][l] + r[(1, i)] * rates[1][l] + r[(2, i)] * rates[2][l]));
+            // force around the ring's axis, N
+            let mut around = [0.0; LANES];
+            if damping > 0.0 || damage.is_some() {
+                let moved = turned_back(r, &inner_rates(group, ring, speed, &rho, &b));
                 group.approach[0] = each(|l| {
                     felt.normal[0][l] * (out[0][l] * moved[0][l] + out[1][l] * moved[1][l])
                         + felt.normal[1][l] * moved[2][l]
                 });
                 let part = damped_part(felt.load, &group.approach[0], damping);
                 group.loads[0] = each(|l| felt.load[l] + part[l]);
-                gradient = [0, 1].map(|k| each(|l| gradient[k][l] + part[l] * felt.normal[k][l]));
+                gradient = along_normal(&felt, &part);
+                if let Some(damage) = damage {
+                    // directions in the frame that turns with the shaft
+                    let seen = [each(|l| out[0][l] * c + out[1][l] * s), each(|l| out[1][l] * c - out[0][l] * s)];
+                    let inside = damage.inside([&seen[0], &seen[1]]);
+                    for (lane, &inside) in inside.iter().enumerate().take(self.count - number * LANES) {
+                        // the opposite would leave out what is not a number
+                        if inside < 0.0 {
+                            continue;
+                        }
+                        let [x, y, z] = [0, 1, 2].map(|k| moved[k][lane]);
+                        let [e_x, e_y] = [0, 1].map(|k| out[k][lane]);
+                        let turn = (e_x * y - e_y * x) * inverse[lane] - shaft.speed;
+                        let place = Touch {
+                            d: [d[0][lane], d[1][lane]].into(),
+                            azimuth: seen[1][lane].atan2(seen[0][lane]),
+                            rates: Vector3::new(e_x * x + e_y * y, z, turn),
+                            driven: -shaft.speed,
+                        };
+                        if let Some(met) = damage.meet(number * LANES + lane, lane, place, &mut group.inner) {
+                            let force = met.gradient();
+                            (group.approach[0][lane], group.loads[0][lane]) =
+                                (met.approach, met.state.load + met.damped);
+                            (gradient[0][lane], gradient[1][lane]) = (force.x, force.y);
+                            around[lane] = force.z * inverse[lane];
+                        }
+                    }
+                }
             }
             if friction != 0.0 {
                 // as at the outer race, with the sine of the outer angle: (-sin, cos) of the inner contact on the ball
@@ -291,23 +395,26 @@ impl BearingBalls {
                 gradient[0] = each(|l| gradient[0][l] - own[l] * felt.normal[1][l]);
                 gradient[1] = each(|l| gradient[1][l] + own[l] * felt.normal[0][l]);
             }
-            let in_ring = [each(|l| gradient[0][l] * out[0][l]), each(|l| gradient[0][l] * out[1][l]), gradient[1]];
-            let force = [0, 1, 2].map(|i| {
-                each(|l| -(r[(i, 0)] * in_ring[0][l] + r[(i, 1)] * in_ring[1][l] + r[(i, 2)] * in_ring[2][l]))
-            });
-            group.from_inner = force;
-            for (k, sum) in sums.iter_mut().enumerate() {
-                let part = match k {
-                    0..=2 => force[k],
-                    _ => {
-                        let (i, j) = ((k + 1) % 3, (k + 2) % 3);
-                        each(|l| b[i][l] * force[j][l] - b[j][l] * force[i][l])
-                    }
-                };
+            let in_ring = [
+                each(|l| around[l] * out[1][l] - gradient[0][l] * out[0][l]),
+                each(|l| -around[l] * out[0][l] - gradient[0][l] * out[1][l]),
+                each(|l| -gradient[1][l]),
+            ];
+            let force = turned(r, &in_ring);
+            let [x, y, z] = &force;
+            let [b_x, b_y, b_z] = &b;
+            let moment = [
+                each(|l| b_y[l] * z[l] - b_z[l] * y[l]),
+                each(|l| b_z[l] * x[l] - b_x[l] * z[l]),
+                each(|l| b_x[l] * y[l] - b_y[l] * x[l]),
+            ];
+            for (sum, part) in sums.iter_mut().zip([x, y, z, &moment[0], &moment[1], &moment[2]]) {
                 *sum = each(|l| sum[l] - part[l]);
             }
+            group.from_inner = force;
         }
-        sums.map(|sum| total(&sum))
+        let [a, b, c, d, e, f] = &sums;
+        [total(a), total(b), total(c), total(d), total(e), total(f)]
     }
 
     /// What the outer contacts do to the kept modes.
@@ -344,6 +451,44 @@ impl BearingBalls {
             lanes::put(&each(|l| (z[l] - outer_z[l]) * mobility + gz), axial);
         }
     }
+}
+
+// Closures over the components of vectors are written out in what follows: `map` of an array is a call that vector registers do not
+// survive.
+
+/// R^T x.
+#[inline(always)]
+fn turned_back(r: &Matrix3<f64>, x: &[Lanes; 3]) -> [Lanes; 3] {
+    [
+        each(|l| r[(0, 0)] * x[0][l] + r[(1, 0)] * x[1][l] + r[(2, 0)] * x[2][l]),
+        each(|l| r[(0, 1)] * x[0][l] + r[(1, 1)] * x[1][l] + r[(2, 1)] * x[2][l]),
+        each(|l| r[(0, 2)] * x[0][l] + r[(1, 2)] * x[1][l] + r[(2, 2)] * x[2][l]),
+    ]
+}
+
+/// R x.
+#[inline(always)]
+fn turned(r: &Matrix3<f64>, x: &[Lanes; 3]) -> [Lanes; 3] {
+    [
+        each(|l| r[(0, 0)] * x[0][l] + r[(0, 1)] * x[1][l] + r[(0, 2)] * x[2][l]),
+        each(|l| r[(1, 0)] * x[0][l] + r[(1, 1)] * x[1][l] + r[(1, 2)] * x[2][l]),
+        each(|l| r[(2, 0)] * x[0][l] + r[(2, 1)] * x[1][l] + r[(2, 2)] * x[2][l]),
+    ]
+}
+
+/// The elastic contact with a part that acts along its normal, N.
+#[inline(always)]
+fn along_normal(felt: &Felt, part: &Lanes) -> [Lanes; 2] {
+    let (gradient, normal) = (&felt.gradient, &felt.normal);
+    [each(|l| gradient[0][l] + part[l] * normal[0][l]), each(|l| gradient[1][l] + part[l] * normal[1][l])]
+}
+
+/// Velocity of a component under the ball in a lane, which moves along at so many turns a second, m/s.
+#[inline(always)]
+fn velocity(table: &RacewayTable, at: Place, speed: f64, work: &mut Work, lane: usize, rows: &[[Lanes; LANES]]) -> f64 {
+    let Work { amplitudes, velocities, scratch_row, .. } = work;
+    table.slopes_into(at, speed, scratch_row);
+    lanes::dot(rows.iter().map(|rows| &rows[lane]), velocities) + lanes::dot(scratch_row.iter(), amplitudes)
 }
 
 /// Hunt-Crossley's part of a contact force, never so large that it pulls, N.

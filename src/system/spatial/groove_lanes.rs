@@ -64,6 +64,19 @@ impl GrooveLaw {
         Felt { penetration, normal, gradient, load }
     }
 
+    /// The contact as springs along both coordinates, N/m: `1.5 F / delta` along the normal and `F / l` across it.
+    #[inline(always)]
+    pub(crate) fn springs(&self, felt: &Felt) -> [Lanes; 2] {
+        let ([r, z], load, overlap) = (&felt.normal, &felt.load, &felt.penetration);
+        // no branch, so that the lanes stay together
+        let along = each(|l| 1.5 * load[l] / if overlap[l] > 0.0 { overlap[l] } else { f64::INFINITY });
+        let across = each(|l| load[l] / self.seat);
+        [
+            each(|l| r[l] * r[l] * along[l] + z[l] * z[l] * across[l]),
+            each(|l| z[l] * z[l] * along[l] + r[l] * r[l] * across[l]),
+        ]
+    }
+
     /// k and dk/dx where the normal's radial part is this.
     #[inline(always)]
     fn stiffness_at(&self, radial: &Lanes) -> [Lanes; 2] {
@@ -72,16 +85,18 @@ impl GrooveLaw {
             2.0 * if cosine > 0.0 { cosine } else { 0.0 } - 1.0
         });
         // Clenshaw's recurrence for both; the last coefficients stand for T_0
-        let (mut one, mut two) = ([[0.0; LANES]; 2], [[0.0; LANES]; 2]);
         let Some((last, higher)) = self.stiffness.split_last() else {
             return [[0.0; LANES]; 2];
         };
-        for coefficients in higher {
-            let next = [0, 1].map(|i| each(|l| coefficients[i] + 2.0 * t[l] * one[i][l] - two[i][l]));
-            (two, one) = (one, next);
+        let [mut k, mut k_two, mut slope, mut slope_two] = [[0.0; LANES]; 4];
+        for [of_k, of_slope] in higher {
+            let next = each(|l| of_k + 2.0 * t[l] * k[l] - k_two[l]);
+            (k_two, k) = (k, next);
+            let next = each(|l| of_slope + 2.0 * t[l] * slope[l] - slope_two[l]);
+            (slope_two, slope) = (slope, next);
         }
-        let [k, slope] = [0, 1].map(|i| each(|l| last[i] + t[l] * one[i][l] - two[i][l]));
-        [k, each(|l| if self.side * radial[l] > 0.0 { slope[l] } else { 0.0 })]
+        let slope = each(|l| last[1] + t[l] * slope[l] - slope_two[l]);
+        [each(|l| last[0] + t[l] * k[l] - k_two[l]), each(|l| if self.side * radial[l] > 0.0 { slope[l] } else { 0.0 })]
     }
 
     /// Elastic energy of one ball of these, J.

@@ -5,16 +5,21 @@
 //! coordinates. Read `force.rs` first.
 
 mod balls;
+mod damage;
 mod energy;
 mod equilibrium;
 mod force;
 mod groove_lanes;
+mod loaded;
 mod pose;
 mod setup;
+mod springs;
+mod static_vectors;
 mod system;
 #[cfg(test)]
 mod tests;
 
 pub use equilibrium::{SpatialBallLoad, SpatialCondition, SpatialEquilibrium};
 pub use setup::{BearingInPlace, SpatialLoad, SpatialSetup, SpatialShaft, Unbalance};
+pub(crate) use static_vectors::with_static_vectors;
 pub use system::SpatialSystem;

@@ -74,8 +74,13 @@ pub struct SpatialSetup {
 
 impl SpatialSetup {
     /// Balls of all bearings.
-    pub fn balls(&self) -> usize {
+    pub(crate) fn balls(&self) -> usize {
         self.bearings.iter().map(|bearing| bearing.bearing.balls()).sum()
+    }
+
+    /// Whether a part of a bearing is damaged.
+    pub(crate) fn has_defects(&self) -> bool {
+        self.bearings.iter().any(|own| !own.bearing.defects().is_empty())
     }
 
     /// Generalised force on the shaft at `time` (s), N and N m, the weight included, the rotating unbalance not. Moments belong to the

@@ -39,6 +39,8 @@ pub(super) struct Work {
     pub scratch_row: Vec<Lanes>,
     /// Cosine and sine of the shaft's angle.
     pub shaft_direction: [f64; 2],
+    /// Force that is evaluated for its overlaps alone.
+    pub force: Vec<f64>,
 }
 
 impl SpatialSystem {
@@ -93,14 +95,10 @@ impl SpatialSystem {
                 modal_force: of_modes(),
                 scratch_row: of_modes(),
                 shaft_direction: [1.0, 0.0],
+                force: Vec::new(),
             },
             setup,
         })
-    }
-
-    /// The shaft and its bearings.
-    pub fn setup(&self) -> &SpatialSetup {
-        &self.setup
     }
 
     /// First coordinate of the balls of each bearing, with their number.
@@ -116,7 +114,7 @@ impl SpatialSystem {
 
 impl SpatialSystem {
     /// State at rest in an equilibrium, the cages held at their angles at `t` (s).
-    pub fn state_at(&self, t: f64, equilibrium: &SpatialEquilibrium, modes: &StructureModes) -> State {
+    pub(crate) fn state_at(&self, t: f64, equilibrium: &SpatialEquilibrium, modes: &StructureModes) -> State {
         let amplitudes = (0..self.modes)
             .map(|mode| modes.participation(mode, &equilibrium.structure_load) / modes.squared_frequencies[mode]);
         let mut y: Vec<f64> = amplitudes.chain(equilibrium.shaft).collect();
@@ -173,7 +171,7 @@ impl Simulated for SpatialSystem {
 
     fn find_powers(&self, now: &Instant<'_>, powers: &mut Powers) {
         let flow = self.flow(now, &mut powers.velocities, &mut powers.row);
-        powers.flows = [flow.loads, flow.rotation, flow.modal_damping, flow.contact_damping, 0.0];
+        powers.flows = [flow.loads, flow.rotation, flow.modal_damping, flow.contact_damping, flow.blending];
         powers.yielding.fill([0.0; 2]);
     }
 }

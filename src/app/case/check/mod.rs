@@ -79,7 +79,7 @@ impl Case {
         }
         match &self.condense.interface {
             Interface::Group(group) => name("condense.interface.group".to_owned(), group),
-            Interface::Centres(centres) => centres.iter().enumerate().for_each(|(index, centre)| {
+            Interface::Centres { centres, .. } => centres.iter().enumerate().for_each(|(index, centre)| {
                 name(format!("condense.interface.centres[{index}].group"), &centre.group);
             }),
             Interface::Ring | Interface::Nodes(_) => {}

@@ -38,6 +38,8 @@ pub(super) const TIME: Range = Range("a time of at most 1e7 s from 0 (let the cl
 pub(super) const MASS: Range = Range("a mass of at most 1e15 kg", |x| x <= 1e15);
 /// As [`MASS`], of forces, accelerations and unbalances.
 pub(super) const LOAD: Range = Range("at most 1e15 either way", |x| x.abs() <= 1e15);
+/// Along a shaft, m.
+pub(super) const PLACE: Range = Range("a place at most 1000 m away (in m)", |x| x.abs() <= 1e3);
 /// As [`MASS`], of springs.
 pub(super) const STIFFNESS: Range = Range("a stiffness of at most 1e20", |x| x <= 1e20);
 /// Beyond, an angle has lost digits or is a number of something else.

@@ -13,21 +13,69 @@ use crate::fe::modal::ModeRange;
 use crate::formats::is_array_name;
 
 /// Signals that every simulation records under these names.
-const RESERVED_NAMES: [&str; 8] =
-    ["time_s", "shaft_x", "shaft_y", "ball_radius", "outer_force", "inner_force", "shaft_speed_hz", "shaft_angle_rad"];
+const RESERVED_NAMES: [&str; 14] = [
+    "time_s",
+    "shaft_x",
+    "shaft_y",
+    "ball_radius",
+    "outer_force",
+    "inner_force",
+    "shaft_speed_hz",
+    "shaft_angle_rad",
+    "shaft_z",
+    "tilt_x",
+    "tilt_y",
+    "ball_axial",
+    "outer_angle",
+    "inner_angle",
+];
 
 pub(super) fn shaft(shaft: &Shaft) -> Result<(), BrokenRule> {
     ABOVE_ZERO.check("shaft.mass", shaft.mass)?;
     range::MASS.check("shaft.mass", shaft.mass)?;
     ZERO_OR_MORE.check("shaft.unbalance", shaft.unbalance)?;
     range::LOAD.check("shaft.unbalance", shaft.unbalance)?;
+    if let Some(inertia) = shaft.transverse_inertia {
+        ABOVE_ZERO.check("shaft.transverse_inertia", inertia)?;
+        range::MASS.check("shaft.transverse_inertia", inertia)?;
+    }
+    if let Some(polar) = shaft.polar_inertia {
+        ZERO_OR_MORE.check("shaft.polar_inertia", polar)?;
+        // no body has more: I_p = sum (x^2 + y^2) dm, and I_t = I_p / 2 + sum z^2 dm
+        let most = 2.0 * shaft.transverse_inertia.unwrap_or(f64::INFINITY);
+        kept(polar <= most, "shaft.polar_inertia".to_owned(), || {
+            Rule::beyond(polar, "at most twice shaft.transverse_inertia", most)
+        })?;
+    }
+    let place = |key: String, place: f64| range::PLACE.check(key, place);
+    shaft.centre.iter().try_for_each(|centre| place("shaft.centre".to_owned(), *centre))?;
+    for (index, unbalance) in shaft.unbalances.iter().enumerate() {
+        let at = |key: &str| format!("shaft.unbalances[{index}].{key}");
+        ZERO_OR_MORE.check(at("moment"), unbalance.moment)?;
+        range::LOAD.check(at("moment"), unbalance.moment)?;
+        DEGREES.check(at("angle_deg"), unbalance.angle_deg)?;
+        place(at("at"), unbalance.at)?;
+    }
     let loads = |key: String, force: &[f64]| force.iter().try_for_each(|&part| range::LOAD.check(key.clone(), part));
     loads("shaft.gravity".to_owned(), &shaft.gravity)?;
     for (index, load) in shaft.loads.iter().enumerate() {
         let key = format!("shaft.loads[{index}]");
         match load {
             Load::Constant(force) => loads(key, force)?,
-            Load::Spatial { force, moment } => loads(key.clone(), force).and_then(|()| loads(key, moment))?,
+            Load::Spatial { force, moment, at } => {
+                loads(key.clone(), force)?;
+                loads(key.clone(), moment)?;
+                place(format!("{key}.at"), *at)?;
+            }
+            Load::SpatialProfile { profile, at } => {
+                place(format!("{key}.at"), *at)?;
+                let key = format!("{key}.profile");
+                increasing(&key, profile.iter().map(|point| point.time))?;
+                for point in profile {
+                    loads(key.clone(), &point.force)?;
+                    loads(key.clone(), &point.moment)?;
+                }
+            }
             Load::Profile(points) => {
                 let key = format!("{key}.profile");
                 increasing(&key, points.iter().map(|point| point.time))?;
@@ -182,7 +230,9 @@ pub(super) fn condense(case: &Case) -> Result<(), BrokenRule> {
         InterfaceModes::Count(count) => ABOVE_ZERO.check("condense.interface_modes", count as f64)?,
         InterfaceModes::UpToHz(limit) => ABOVE_ZERO.check("condense.interface_modes.up_to_hz", limit)?,
     }
-    if let Interface::Centres(centres) = &case.condense.interface {
+    if let Interface::Centres { centres, rings } = &case.condense.interface {
+        let tied = case.seats().iter().any(|seat| seat.ring.tie.is_some());
+        needs("condense.interface.rings", "`ring.tie`", tied || !rings)?;
         not_empty("condense.interface.centres", centres.len(), "at least one bore")?;
         let groups = centres.iter().map(|centre| centre.group.as_str());
         each_once(groups, |index| format!("condense.interface.centres[{index}].group"))?;

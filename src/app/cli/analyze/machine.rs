@@ -32,6 +32,8 @@ pub(super) struct Machine {
     pub(super) catalogue: Option<String>,
     /// Whether what a file states of its speed goes before what was typed.
     pub(super) own_first: bool,
+    /// The bearing of a run in space that is asked for: its label, and whether preload or thrust hold all its balls.
+    pub(super) of_run: Option<(String, bool)>,
 }
 
 impl Machine {
@@ -41,10 +43,16 @@ impl Machine {
     /// [`CliError`]: a bearing that is none, a case without one.
     pub(super) fn of(
         asked: &AnalyzeArguments,
-        is_run: bool,
+        run: Option<&Path>,
         case: Option<&Case>,
         options: &Options,
     ) -> Result<Self, CliError> {
+        if let (Some(folder), Some(case)) = (run, case)
+            && let Some(label) = bearing_of_run(asked, case)?
+        {
+            return Self::of_run_in_space(asked, folder, case, &label);
+        }
+        let is_run = run.is_some();
         // a folder's case may be told another bearing
         let (other, catalogue) = match named_bearing(asked)? {
             Some(Named::Catalogue(bearing)) => (None, Some(bearing)),
@@ -72,6 +80,22 @@ impl Machine {
             of_case: of_case.map(|setup| setup.cage.shaft().clone()),
             catalogue: catalogue.zip(asked.bearing.as_deref()).map(|(bearing, name)| described(bearing, name)),
             own_first: false,
+            of_run: None,
+        })
+    }
+
+    /// One of the bearings of a run in space, at the orders that its results say.
+    fn of_run_in_space(asked: &AnalyzeArguments, folder: &Path, case: &Case, label: &str) -> Result<Self, CliError> {
+        let (rolling, pressed) = bearing_of_results(folder, label)?;
+        let orders = FaultOrders::of(&rolling, asked.geometry_error.unwrap_or(0.0)).map_err(ComputeError::from)?;
+        Ok(Self {
+            orders: Some(orders),
+            setup: None,
+            typed: asked.speed.clone(),
+            of_case: Some(crate::app::scene::bearing::speed(case)?),
+            catalogue: None,
+            own_first: false,
+            of_run: Some((label.to_owned(), pressed)),
         })
     }
 
@@ -79,7 +103,7 @@ impl Machine {
     /// speed.
     pub(super) fn motion(&self, signal: &MeasuredSignal) -> Option<(Kinematics<'_>, Vec<String>)> {
         if let (Some((setup, error)), None) = (&self.setup, own_speed(signal)) {
-            let kinematics = match Kinematics::of(&setup.cage, &setup.geometry) {
+            let kinematics = match Kinematics::of(&setup.cage, setup.geometry.balls(), setup.geometry.orders()) {
                 Kinematics::Cage { cage, balls, rolling, .. } => {
                     Kinematics::Cage { cage, balls, rolling, error: *error }
                 }
@@ -150,6 +174,61 @@ impl Machine {
 /// The shaft's speed that a file states of itself, Hz.
 fn own_speed(signal: &MeasuredSignal) -> Option<f64> {
     signal.speed_hz.filter(|&hz| hz.is_finite() && hz > 0.0)
+}
+
+/// The label of the bearing that is asked for of a run in space; `None` of a run in the plane.
+///
+/// # Errors
+/// [`CliError`] where the run has several and none of them is named.
+fn bearing_of_run(asked: &AnalyzeArguments, case: &Case) -> Result<Option<String>, CliError> {
+    if asked.orders.is_some() || asked.balls.is_some() || case.in_space("`analyze`")?.is_none() {
+        return Ok(None);
+    }
+    let labels: Vec<String> = case.seats().into_iter().map(|seat| seat.label).collect();
+    let named = asked.bearing.as_deref().map(|name| name.to_string_lossy().into_owned());
+    match (named, labels.as_slice()) {
+        (None, [only]) => Ok(Some(only.clone())),
+        (Some(named), labels) if labels.contains(&named) => Ok(Some(named)),
+        (named, _) => {
+            let found = named.map_or_else(|| "none".to_owned(), |name| format!("\"{name}\""));
+            let what = format!("--bearing: found {found}, expected a bearing of the run: {}", labels.join(", "));
+            Err(CliError::input(what)
+                .with_help("a run of several bearings is analysed for one of them: add --bearing LABEL"))
+        }
+    }
+}
+
+/// The orders of a bearing that the results of a run say, and whether all its balls carry load at rest.
+fn bearing_of_results(folder: &Path, label: &str) -> Result<(DefectOrders, bool), CliError> {
+    #[derive(serde::Deserialize)]
+    struct Orders {
+        cage: f64,
+        outer: f64,
+        inner: f64,
+        ball: f64,
+    }
+    #[derive(serde::Deserialize)]
+    struct OfBearing {
+        label: String,
+        defect_orders: Orders,
+        inner_force_n: Vec<f64>,
+    }
+    #[derive(serde::Deserialize)]
+    struct Results {
+        bearings: Vec<OfBearing>,
+    }
+    let path = folder.join("run.json");
+    let text =
+        std::fs::read_to_string(&path).map_err(|error| CliError::input(format!("{}: {error}", path.display())))?;
+    let results: Result<Results, _> = serde_json::from_str(&text);
+    let results = results.map_err(|error| CliError::input(format!("{}: {error}", path.display())))?;
+    let own = results.bearings.into_iter().find(|own| own.label == label);
+    let Some(OfBearing { defect_orders: Orders { cage, outer, inner, ball }, inner_force_n, .. }) = own else {
+        let what = format!("{}: found no bearing \"{label}\", expected the orders of one", path.display());
+        return Err(CliError::input(what).with_help("compute the run anew"));
+    };
+    let pressed = inner_force_n.iter().all(|force| *force > 0.0);
+    Ok((DefectOrders { cage, outer, inner, ball_spin: 0.5 * ball, ball_defect: ball }, pressed))
 }
 
 /// A case whose bearing stays in its plane, as orders at no contact angle do.

@@ -10,7 +10,7 @@ use crate::app::commands::analyze::{
     AnalysisResult, AnalysisRow, InputSummary, WindowAnalysis, WindowChange, analysis_report, verdict_lines,
 };
 use crate::app::commands::parts::{not_shown, with_details, with_entries};
-use crate::signal::diagnosis::{ChangeConclusion, Diagnosis, change_words};
+use crate::signal::diagnosis::{ChangeConclusion, change_words};
 
 /// Analyses an input into a folder.
 ///
@@ -38,7 +38,7 @@ pub(super) fn single(
     }
     progress.stage("write");
     let name = input.display().to_string();
-    let truth = |diagnosis: &_| source.simulated().and_then(|case| not_shown(case, diagnosis));
+    let truth = |window: &_| source.simulated().and_then(|case| not_shown(case, window));
     let report = analysis_report(&title(input, asked, &source), source.inputs(), &windows, truth, &typed());
     let mut report = match &source.case {
         Some(case) => with_details(report, case),
@@ -110,7 +110,7 @@ fn change_lines(change: &WindowChange) -> Vec<String> {
     lines
 }
 
-fn summary(windows: &[&WindowAnalysis], truth: impl Fn(&Diagnosis) -> Option<String>) -> String {
+fn summary(windows: &[&WindowAnalysis], truth: impl Fn(&WindowAnalysis) -> Option<String>) -> String {
     let mut lines = Vec::new();
     for window in windows {
         lines.extend(verdict_lines(window, &truth));

@@ -72,7 +72,8 @@ impl Source {
             Some(_) => None,
             None => ReportDetails::of_arguments(&options.set)?,
         };
-        let machine = Machine::of(asked, is_run, case.as_ref(), options)?;
+        let run = Some(input).filter(|_| is_run);
+        let machine = Machine::of(asked, run, case.as_ref(), options)?;
         let read = read(&file, request, unnamed).map_err(ComputeError::from)?;
         let mut missing = read.missing;
         if machine.orders.is_none() {
@@ -96,7 +97,7 @@ impl Source {
         }
         let of_baseline = asked.baseline_rate.is_some() && asked.baseline.as_deref() == Some(input);
         let option = if of_baseline { "--baseline-rate" } else { "--rate" };
-        let settings = settings(asked, case.as_ref().filter(|_| is_run));
+        let settings = settings(asked, case.as_ref().filter(|_| is_run), &machine);
         let mut assumptions = read.left_out;
         let mut doubts = Vec::new();
         for signal in &signals {
@@ -156,7 +157,9 @@ impl Source {
     pub(super) fn machine_facts(&self) -> Vec<Fact> {
         match (&self.case, self.is_run) {
             (Some(case), true) => parts::inputs(case, Purpose::Run, None),
-            (Some(case), false) => case.bearing.iter().map(parts::bearing_fact).collect(),
+            (Some(case), false) => {
+                case.all_bearings().into_iter().map(|(_, bearing)| parts::bearing_fact(bearing)).collect()
+            }
             (None, _) => self.machine.catalogue.iter().map(|words| Fact::new("Bearing", words)).collect(),
         }
     }
@@ -272,8 +275,15 @@ fn flaws_of(name: &str, series: &TimeSeries) -> Vec<String> {
 }
 
 /// Filter and windows: what was typed, else what the run's case says.
-fn settings(asked: &AnalyzeArguments, case: Option<&Case>) -> AnalysisSettings {
-    let mut settings = case.map(AnalysisSettings::of).unwrap_or_default();
+fn settings(asked: &AnalyzeArguments, case: Option<&Case>, machine: &Machine) -> AnalysisSettings {
+    let of_case = |case: &Case| match &machine.of_run {
+        None => AnalysisSettings::of(case, case.bearing.as_ref(), false),
+        Some((label, pressed)) => {
+            let own = case.seats().into_iter().find(|seat| seat.label == *label);
+            AnalysisSettings::of(case, own.and_then(|seat| seat.bearing), *pressed)
+        }
+    };
+    let mut settings = case.map(of_case).unwrap_or_default();
     if !asked.window.is_empty() {
         settings.windows = asked.window.clone();
     }

@@ -329,6 +329,7 @@ mod terminal_tests {
         };
         WindowAnalysis {
             sensor: "P1".to_owned(),
+            bearing: None,
             unit: "g".to_owned(),
             whitened: false,
             from: 0.0,

@@ -15,7 +15,7 @@ pub(crate) fn analysis_report(
     source: &str,
     inputs: Section,
     windows: &[WindowAnalysis],
-    truth: impl Fn(&Diagnosis) -> Option<String>,
+    truth: impl Fn(&WindowAnalysis) -> Option<String>,
     command: &str,
 ) -> Report {
     let report = Report::new(source, command, env!("CARGO_PKG_VERSION"))
@@ -36,11 +36,11 @@ pub(crate) fn analysis_report(
 pub(crate) fn verdict_headlines(
     mut report: Report,
     windows: &[WindowAnalysis],
-    truth: impl Fn(&Diagnosis) -> Option<String>,
+    truth: impl Fn(&WindowAnalysis) -> Option<String>,
 ) -> Report {
     for window in windows {
         let Ok(diagnosis) = &window.diagnosis else { continue };
-        let missed = truth(diagnosis).map_or_else(String::new, |missed| format!("{}. ", capital(&missed)));
+        let missed = truth(window).map_or_else(String::new, |missed| format!("{}. ", capital(&missed)));
         let note = missed + &diagnosis.reason();
         report = report.headline(place_and_time(window), diagnosis.headline(), Verdict::None).note(note);
     }
@@ -48,8 +48,8 @@ pub(crate) fn verdict_headlines(
 }
 
 /// The same on a terminal, with the table of the parts.
-pub(crate) fn verdict_lines(window: &WindowAnalysis, truth: impl Fn(&Diagnosis) -> Option<String>) -> Vec<String> {
-    let place = format!("{} from {} to {} s", window.sensor, given(window.from), given(window.to));
+pub(crate) fn verdict_lines(window: &WindowAnalysis, truth: impl Fn(&WindowAnalysis) -> Option<String>) -> Vec<String> {
+    let place = format!("{} from {} to {} s", window.place(), given(window.from), given(window.to));
     let diagnosis = match &window.diagnosis {
         Ok(diagnosis) => diagnosis,
         Err(reason) => return vec![format!("{place}: no verdict: {reason}")],
@@ -62,7 +62,7 @@ pub(crate) fn verdict_lines(window: &WindowAnalysis, truth: impl Fn(&Diagnosis) 
         diagnosis.headline()
     )];
     let doubts = [diagnosis.speed_doubt(), diagnosis.speed_change()].map(|doubt| Some(format!("warning: {}", doubt?)));
-    let said = [Some(diagnosis.reason()), truth(diagnosis)].into_iter().chain(doubts).flatten();
+    let said = [Some(diagnosis.reason()), truth(window)].into_iter().chain(doubts).flatten();
     lines.extend(said.map(|text| format!("  {text}")));
     let table = verdict_table(diagnosis, "Reason", |verdict| &verdict.reason).plain();
     lines.extend(table.lines().skip(1).map(str::to_owned));
@@ -77,7 +77,7 @@ pub(crate) fn capital(text: &str) -> String {
 
 /// Sensor and window of time.
 fn place_and_time(window: &WindowAnalysis) -> String {
-    format!("{}, {} to {} s", window.sensor, given(window.from), given(window.to))
+    format!("{}, {} to {} s", window.place(), given(window.from), given(window.to))
 }
 
 /// All about a window.

@@ -4,7 +4,7 @@
 
 use super::band_search::{AskedBand, UsedBand};
 use super::fault_lines::{FaultLine, fault_lines};
-use crate::app::case::{Case, Defect, DentDefect, Load, MeasuredDefect};
+use crate::app::case::{Bearing, Case, Defect, DentDefect, Load, MeasuredDefect};
 use crate::app::error::ComputeError;
 use crate::bearing::Race;
 use crate::formats::MeasuredSignal;
@@ -51,16 +51,16 @@ pub struct AnalysisSettings {
 }
 
 impl AnalysisSettings {
-    /// What a case asks for.
+    /// What a case asks for, of one of its bearings; `pressed` where preload or thrust hold all its balls, whatever its play.
     #[must_use]
-    pub(crate) fn of(case: &Case) -> Self {
+    pub(crate) fn of(case: &Case, bearing: Option<&Bearing>, pressed: bool) -> Self {
         Self {
             band: AskedBand::of(case),
             shown_band: None,
             whiten: case.analysis.whiten,
             windows: case.analysis.envelope.clone(),
             good_to_hz: good_to_hz(case),
-            no_signs: no_signs(case),
+            no_signs: no_signs(case, bearing, pressed),
         }
     }
 
@@ -125,6 +125,9 @@ const SAME_LEVEL: f64 = 0.995;
 pub struct WindowAnalysis {
     /// Sensor or channel that it belongs to.
     pub sensor: String,
+    /// The bearing that it is of, where a case has several.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub bearing: Option<String>,
     /// Unit of its signal.
     pub unit: String,
     /// Whether the envelope spectrum is of the whitened signal's squared envelope.
@@ -194,6 +197,19 @@ fn verdict_summary<S: Serializer>(diagnosis: &Result<Diagnosis, String>, to: S) 
 }
 
 impl WindowAnalysis {
+    /// The same of a bearing with this label, which is empty for the only one.
+    pub(crate) fn of_bearing(self, label: &str) -> Self {
+        Self { bearing: Some(label.to_owned()).filter(|label| !label.is_empty()), ..self }
+    }
+
+    /// Sensor and bearing.
+    pub(crate) fn place(&self) -> String {
+        match &self.bearing {
+            None => self.sensor.clone(),
+            Some(label) => format!("{}, bearing {label}", self.sensor),
+        }
+    }
+
     /// Whether any part was judged.
     #[must_use]
     pub(crate) fn is_judged(&self) -> bool {
@@ -270,6 +286,7 @@ pub fn analyse(
             let peaks = if speed_hz > 0.0 { envelope_peaks(&spectrum, &lines, &search) } else { Vec::new() };
             Ok(WindowAnalysis {
                 sensor: sensor.to_owned(),
+                bearing: None,
                 unit: stretch.unit().to_owned(),
                 from,
                 to,
@@ -419,11 +436,12 @@ const STRIKING_LOAD: f64 = 7500.0;
 const STANDARD_GRAVITY: f64 = 9.80665;
 
 /// Why lines of a part are no sign of damage in a simulated bearing: the case has no damage there, or the load is too large to tell.
-pub(crate) fn no_signs(case: &Case) -> Vec<(Fault, bool, String)> {
-    let Some(bearing) = case.bearing.as_ref() else {
+pub(crate) fn no_signs(case: &Case, bearing: Option<&Bearing>, pressed: bool) -> Vec<(Fault, bool, String)> {
+    let Some(bearing) = bearing else {
         return Vec::new();
     };
-    let play = (bearing.play() > 0.0).then(|| format!("the play is {} µm", significant(1e6 * bearing.play(), 2)));
+    let play =
+        (bearing.play() > 0.0 && !pressed).then(|| format!("the play is {} µm", significant(1e6 * bearing.play(), 2)));
     let damaged = bearing.defects.iter().map(|defect| match defect {
         Defect::Dent(DentDefect { on, .. }) | Defect::Measured(MeasuredDefect { on, .. }) => match on {
             Race::Outer => Fault::OuterRace,
@@ -438,7 +456,7 @@ pub(crate) fn no_signs(case: &Case) -> Vec<(Fault, bool, String)> {
             (false, Some(play)) => format!("The case has no damage there, and {play}."),
             (false, None) => "The case has no damage there.".to_owned(),
             (true, play) => {
-                let (play, weights) = (play?, ball_weights(case).filter(|weights| *weights >= STRIKING_LOAD)?);
+                let (play, weights) = (play?, ball_weights(case, bearing).filter(|weights| *weights >= STRIKING_LOAD)?);
                 format!(
                     "Its lines cannot be told from those of play: {play}, and shaft and loads weigh up to {} times a ball. Only a comparison with a run without the damage tells (--baseline).",
                     significant(weights, 2)
@@ -451,16 +469,15 @@ pub(crate) fn no_signs(case: &Case) -> Vec<(Fault, bool, String)> {
 }
 
 /// The largest load of the bearing over the weight of a ball.
-fn ball_weights(case: &Case) -> Option<f64> {
+fn ball_weights(case: &Case, bearing: &Bearing) -> Option<f64> {
     let shaft = case.shaft.as_ref()?;
     let size = |[x, y]: [f64; 2]| x.hypot(y);
-    let largest = |load: &Load| match load {
-        Load::Constant(force) => size(*force),
-        Load::Spatial { force: [x, y, _], .. } => size([*x, *y]),
-        Load::Profile(points) => points.iter().fold(0.0, |most, at| size(at.force).max(most)),
+    let largest = |load: &Load| {
+        let points = load.in_space().1;
+        points.iter().fold(0.0, |most, (_, [x, y, ..])| size([*x, *y]).max(most))
     };
     let load = shaft.mass * size(shaft.gravity) + shaft.loads.iter().map(largest).sum::<f64>();
-    Some(load / (case.ball_mass()? * STANDARD_GRAVITY))
+    Some(load / (case.mass_of_ball(bearing).ok()? * STANDARD_GRAVITY))
 }
 
 #[cfg(test)]

@@ -7,8 +7,8 @@ use super::summary::hz;
 use crate::app::case::{Case, Purpose};
 use crate::app::commands::parts::{self, HousingSize, signed_report};
 use crate::app::scene::tie_price::{BeamAndSolid, BorePrice, TiePrice};
-use crate::app::scene::{Boundary, ImportedHousing};
-use crate::fe::model::{CentreNode, CentreTie};
+use crate::app::scene::{Boundary, Centres, ImportedHousing};
+use crate::fe::model::{CentreNode, CentreTie, Rings};
 use crate::fe::reduction::{BasisSize, Bound, Check, SizeErrors};
 use crate::report::{
     Abscissa, Axis, Block, Cell, Column, Curve, CurveStyle, Fact, Plot, Report, Section, Table, Verdict, significant,
@@ -89,25 +89,32 @@ fn checks_passed(report: Report, checks: &[Check]) -> Report {
     report.headline("Checks passed", text, Verdict::of(passed == checks.len()))
 }
 
+fn of_rings(rings: &Rings) -> String {
+    match rings.seats() {
+        [only] => format!("the {} nodes of the ring, through its tie", only.ring.nodes()),
+        several => {
+            let nodes = several.iter().map(|seat| format!("{} of {}", seat.ring.nodes(), seat.label));
+            format!("the nodes of the rings, through their ties: {}", nodes.collect::<Vec<_>>().join(", "))
+        }
+    }
+}
+
+fn of_centres(centres: &Centres) -> String {
+    let node = |(group, node): &(String, CentreNode)| match node.tie {
+        CentreTie::Rigid => format!("of \"{group}\", rigid"),
+        CentreTie::Mean => format!("of \"{group}\", in the mean"),
+    };
+    let nodes: Vec<String> = centres.nodes.iter().map(node).collect();
+    format!("centre nodes {}", nodes.join("; "))
+}
+
 fn what(result: &CondenseResult) -> Section {
     let stage = &result.stage;
     let element = &stage.condensed.superelement;
     let interface = match &stage.boundary {
-        Boundary::Rings(bodies) => match bodies.0.seats() {
-            [only] => format!("the {} nodes of the ring, through its tie", only.ring.nodes()),
-            several => {
-                let nodes = several.iter().map(|seat| format!("{} of {}", seat.ring.nodes(), seat.label));
-                format!("the nodes of the rings, through their ties: {}", nodes.collect::<Vec<_>>().join(", "))
-            }
-        },
-        Boundary::Centres(centres) => {
-            let node = |(group, node): &(String, CentreNode)| match node.tie {
-                CentreTie::Rigid => format!("of \"{group}\", rigid"),
-                CentreTie::Mean => format!("of \"{group}\", in the mean"),
-            };
-            let nodes: Vec<String> = centres.nodes.iter().map(node).collect();
-            format!("centre nodes {}", nodes.join("; "))
-        }
+        Boundary::Rings(bodies) => of_rings(&bodies.0),
+        Boundary::Centres(centres) => of_centres(centres),
+        Boundary::Both(both) => format!("{}; then {}", of_rings(&both.rings), of_centres(&both.centres)),
         Boundary::Nodes(nodes) => {
             let count = nodes.coordinates.iter().map(|at| at.0);
             let count = count.collect::<std::collections::BTreeSet<_>>().len();

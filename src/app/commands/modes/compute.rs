@@ -3,12 +3,14 @@
 
 use super::comparison::{ComparedFile, FileComparison};
 use super::convergence::{MeshConvergence, MeshSequence, mesh_convergence};
-use crate::app::case::{Case, Linearise};
+use crate::app::case::{Case, Linearise, SpatialCase};
 use crate::app::commands::parts::ExpectedMode;
 use crate::app::error::ComputeError;
 use crate::app::scene::doubts::accept_contacts;
 use crate::app::scene::structure::needed_modes;
-use crate::app::scene::{AssembledHousing, CoupledStructure, RingsInHousing, bearing_setup, doubts, race_contacts};
+use crate::app::scene::{
+    AssembledHousing, CoupledStructure, MachineScene, RingsInHousing, bearing_setup, doubts, race_contacts,
+};
 use crate::fe::mesh::Mesh;
 use crate::fe::modal::{FullModes, ModalSurvey, ModeRange};
 use crate::fe::model::HousingModel;
@@ -142,10 +144,17 @@ fn own_modes(case: &Case, watch: &impl Watch) -> Result<ModesResult, ComputeErro
         return housing_alone(case, watch);
     }
     let (mut loaded, mut statics, mut loaded_pass, mut fixed_interface_modes) = (None, None, None, None);
-    let setup = linearised_setup(case)?;
-    let bodies = match &setup {
-        None => RingsInHousing::build(case, watch)?,
-        Some(setup) => {
+    let linearised = Linearised::of(case)?;
+    let bodies = match &linearised {
+        Linearised::Nothing => RingsInHousing::build(case, watch)?,
+        Linearised::InSpace(spatial) => {
+            let scene = MachineScene::build(spatial, [start_time(case); 2], watch)?;
+            watch.stage("linearise");
+            loaded = Some(scene.loaded_modes()?);
+            fixed_interface_modes = Some(scene.stage.fixed_interface_modes);
+            scene.stage.bodies
+        }
+        Linearised::InPlane(setup) => {
             let stage = CoupledStructure::around_rings(case, needed_modes(case), watch)?;
             let start = start_time(case);
             watch.stage("linearise");
@@ -177,7 +186,7 @@ fn own_modes(case: &Case, watch: &impl Watch) -> Result<ModesResult, ComputeErro
         ModeRange::Count(_) | ModeRange::AtMost(_) => 0.0,
     };
     let beyond = bodies.imported.iter().filter_map(|imported| imported.doubt(top_hz.max(asked_hz)));
-    let mut doubts = doubts(case, bodies.mesh_and_model(), setup.as_ref().zip(at_rest))?;
+    let mut doubts = doubts(case, bodies.mesh_and_model(), linearised.setup().zip(at_rest))?;
     doubts.extend(beyond);
     let bodies = Some(bodies);
     let result = ModesResult::new(base, survey, doubts);
@@ -193,11 +202,30 @@ fn housing_alone(case: &Case, watch: &impl Watch) -> Result<ModesResult, Compute
     Ok(ModesResult { housing: Some((mesh, model)), ..ModesResult::new(base, survey, doubts) })
 }
 
-/// The bearing, if modes are linearised with it.
-fn linearised_setup(case: &Case) -> Result<Option<BearingSetup>, ComputeError> {
-    match case.modes.linearise {
-        Linearise::Static => bearing_setup(case),
-        Linearise::None => Ok(None),
+/// What modes are linearised with.
+enum Linearised<'c> {
+    Nothing,
+    InPlane(Box<BearingSetup>),
+    InSpace(Box<SpatialCase<'c>>),
+}
+
+impl<'c> Linearised<'c> {
+    fn of(case: &'c Case) -> Result<Self, ComputeError> {
+        if case.modes.linearise == Linearise::None {
+            return Ok(Self::Nothing);
+        }
+        if let Some(spatial) = case.in_space("`modes.linearise = \"static\"`")? {
+            return Ok(Self::InSpace(Box::new(spatial)));
+        }
+        Ok(bearing_setup(case)?.map_or(Self::Nothing, |setup| Self::InPlane(Box::new(setup))))
+    }
+
+    /// The bearing in its plane.
+    fn setup(&self) -> Option<&BearingSetup> {
+        match self {
+            Self::InPlane(setup) => Some(setup),
+            Self::Nothing | Self::InSpace(_) => None,
+        }
     }
 }
 
@@ -212,9 +240,14 @@ fn variant_reading(case: &Case) -> Result<Option<Reading>, ComputeError> {
     if !case.has_rings() {
         return Ok(None);
     }
-    let (bodies, loaded) = match linearised_setup(case)? {
-        None => (RingsInHousing::build(case, &Unwatched)?, None),
-        Some(setup) => {
+    let (bodies, loaded) = match Linearised::of(case)? {
+        Linearised::Nothing => (RingsInHousing::build(case, &Unwatched)?, None),
+        Linearised::InSpace(spatial) => {
+            let scene = MachineScene::build(&spatial, [start_time(case); 2], &Unwatched)?;
+            let loaded = scene.loaded_modes()?;
+            (scene.stage.bodies, Some(loaded))
+        }
+        Linearised::InPlane(setup) => {
             let stage = CoupledStructure::around_rings(case, needed_modes(case), &Unwatched)?;
             let loaded = loaded_modes(case, &stage, &setup)?;
             (stage.bodies, Some(loaded))

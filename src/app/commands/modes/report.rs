@@ -60,7 +60,8 @@ pub(crate) fn modes_report(case: &Case, result: &ModesResult, command: &str) -> 
                 .table(variant_table(&result.base, &result.variants)),
         );
     }
-    let setup = bearing_setup(case)?;
+    // the bearing in space has its own pages
+    let setup = if result.statics.is_some() || case.in_the_plane().is_ok() { bearing_setup(case)? } else { None };
     if let (Some(setup), Some(contacts)) = (&setup, race_contacts(case)?) {
         let equilibria = result.statics.iter().flat_map(|statics| &statics.equilibria);
         let table = parts::bearing_table(setup, &contacts, equilibria.clone().next());

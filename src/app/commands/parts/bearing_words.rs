@@ -2,6 +2,7 @@
 
 use super::phrases::{and, direction_words, length, listed};
 use crate::app::case::{Bearing, Case, ContactStiffness, Defect, DentProfile, Load, Shaft, Slip, Speed};
+use crate::app::commands::analyze::WindowAnalysis;
 use crate::app::scene::race_contacts;
 use crate::bearing::Race;
 use crate::report::{Fact, given, quantity, significant};
@@ -13,13 +14,17 @@ const TOLD_POINTS: usize = 6;
 /// The bearing with its faults and loads; with its speed and the time that is simulated where it `moves`.
 pub(super) fn facts(case: &Case, moves: bool) -> Vec<Fact> {
     let mut facts = Vec::new();
-    if let Some(bearing) = &case.bearing {
-        facts.push(bearing_fact(bearing));
-        facts.extend(contact(case, bearing));
-        facts.extend(imperfections(bearing));
+    for (label, bearing) in case.all_bearings() {
+        let mut own = vec![bearing_fact(bearing)];
+        own.extend(contact(case, bearing));
+        own.extend(imperfections(bearing));
         let name = "Fault of the bearing";
         let faults = listed(name, faults(bearing)).unwrap_or_else(|| Fact::new(name, NO_FAULT));
-        facts.push(Fact { note: felt(bearing), ..faults });
+        own.push(Fact { note: felt(bearing), ..faults });
+        facts.extend(own.into_iter().map(|fact| match label.as_str() {
+            "" => fact,
+            label => Fact { name: format!("{}, bearing {label}", fact.name), ..fact },
+        }));
     }
     facts.extend(case.shaft.iter().flat_map(shaft));
     facts.extend(case.speed.iter().filter(|_| moves).map(|speed| Fact::new("Speed of the shaft", speed_words(speed))));
@@ -153,7 +158,12 @@ fn of_race(race: Race) -> Fault {
 
 /// That a case has damage of which a signal shows nothing: a judged part that is damaged and not indicated. `None` where all damage
 /// is indicated or none could be judged.
-pub(crate) fn not_shown(case: &Case, diagnosis: &Diagnosis) -> Option<String> {
+pub(crate) fn not_shown(case: &Case, window: &WindowAnalysis) -> Option<String> {
+    missed_by(case, window.bearing.as_deref().unwrap_or_default(), window.diagnosis.as_ref().ok()?)
+}
+
+/// The same by the label of the bearing, empty for the only one.
+fn missed_by(case: &Case, label: &str, diagnosis: &Diagnosis) -> Option<String> {
     let damaged = |defect: &Defect| match defect {
         Defect::Dent(dent) => (of_race(dent.on), format!("a dent in the {} race", dent.on)),
         Defect::Measured(profile) => (of_race(profile.on), format!("a measured profile in the {} race", profile.on)),
@@ -164,7 +174,9 @@ pub(crate) fn not_shown(case: &Case, diagnosis: &Diagnosis) -> Option<String> {
         judged.is_some_and(|verdict| verdict.false_alarm.is_some())
             && !diagnosis.named().any(|verdict| verdict.fault == *part)
     };
-    let defects = case.bearing.iter().flat_map(|bearing| &bearing.defects).map(damaged);
+    let seats = case.seats();
+    let own = seats.iter().filter(|seat| seat.label == label);
+    let defects = own.filter_map(|seat| seat.bearing).flat_map(|bearing| &bearing.defects).map(damaged);
     let mut missed: Vec<String> = defects.filter(|(part, _)| missed(part)).map(|(_, words)| words).collect();
     missed.dedup();
     let shows = match diagnosis.by_signal_alone.is_empty() {
@@ -183,13 +195,29 @@ fn shaft(shaft: &Shaft) -> Vec<Fact> {
     if shaft.unbalance > 0.0 {
         text += &format!(", unbalance {} g mm", given(1e6 * shaft.unbalance));
     }
+    for unbalance in &shaft.unbalances {
+        text += &format!(
+            ", unbalance {} g mm at {}\u{b0}, {} along the shaft",
+            given(1e6 * unbalance.moment),
+            given(unbalance.angle_deg),
+            length(unbalance.at)
+        );
+    }
+    if let Some(transverse) = shaft.transverse_inertia {
+        let polar = given(1e6 * shaft.polar_inertia.unwrap_or(0.0));
+        text += &format!(
+            ", moments of inertia {} kg mm\u{b2} across and {polar} kg mm\u{b2} along",
+            given(1e6 * transverse)
+        );
+    }
     let load = |load: &Load| match load {
         Load::Constant(force) => vector(*force, "N"),
-        Load::Spatial { force, moment } => {
+        Load::Spatial { force, moment, at } => {
             let [force, moment] = [&force[..], &moment[..]]
                 .map(|parts| parts.iter().map(|part| given(*part)).collect::<Vec<_>>().join(", "));
-            format!("({force}) N, moment ({moment}) N m")
+            format!("({force}) N, moment ({moment}) N m, at {}", length(*at))
         }
+        Load::SpatialProfile { profile, at } => format!("a profile of {} points, at {}", profile.len(), length(*at)),
         Load::Profile(points) if points.len() > TOLD_POINTS => format!("a profile of {} points", points.len()),
         Load::Profile(points) => {
             let points = points.iter().map(|point| format!("{} at {} s", vector(point.force, "N"), given(point.time)));
@@ -257,7 +285,7 @@ mod tests {
     #[test]
     fn damage_that_a_verdict_does_not_see_is_told() {
         let case = Case::example("tadina2011/inner-dent", &[]);
-        let told = |conclusion, chance| not_shown(&case, &diagnosis(conclusion, chance));
+        let told = |conclusion, chance| missed_by(&case, "", &diagnosis(conclusion, chance));
         let expected = "the case has a dent in the inner race; the signal does not show it";
         assert_eq!(told(Conclusion::NotSeen, Some(0.5)).as_deref(), Some(expected));
         assert_eq!(told(Conclusion::NotEnough, Some(1e-2)).as_deref(), Some(expected));
@@ -265,7 +293,7 @@ mod tests {
         // too short a window says so itself
         assert_eq!(told(Conclusion::NotEnough, None), None);
         let sound = Case::example("tadina2011/healthy", &[]);
-        assert_eq!(not_shown(&sound, &diagnosis(Conclusion::NotSeen, Some(0.5))), None);
+        assert_eq!(missed_by(&sound, "", &diagnosis(Conclusion::NotSeen, Some(0.5))), None);
     }
 
     #[test]

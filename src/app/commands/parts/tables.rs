@@ -10,7 +10,7 @@ use crate::fe::element::continuum::PlaneAssumption;
 use crate::fe::material::RadiusRule;
 use crate::fe::model::RingSeat;
 use crate::report::{Cell, Column, Document, Fact, Report, Table, Verdict, signed_fixed, significant};
-use crate::system::{BallsInertia, BearingSetup, Formulation, LoadedModes};
+use crate::system::{BallsInertia, BearingSetup, Formulation, LoadedMode, LoadedModes};
 
 /// Loaded modes listed in a report.
 const LISTED_MODES: usize = 20;
@@ -45,6 +45,9 @@ pub(crate) fn model_facts(bodies: &RingsInHousing, fixed_interface_modes: Option
 
 /// Loaded and unloaded frequencies side by side.
 pub(crate) fn mode_table(unloaded_hz: &[f64], loaded: &LoadedModes) -> Table {
+    let listed = &loaded.modes;
+    let damped = listed.iter().any(|mode| mode.damping_ratio.is_some());
+    let whirls = listed.iter().any(|mode| mode.whirl.is_some());
     let columns = [
         Column::number("Mode", ""),
         Column::number("Without contact", "Hz"),
@@ -53,7 +56,9 @@ pub(crate) fn mode_table(unloaded_hz: &[f64], loaded: &LoadedModes) -> Table {
         Column::number("Shaft", "%"),
         Column::number("Balls", "%"),
     ];
-    let listed = &loaded.modes;
+    let more = [(damped, Column::number("Damping", "%")), (whirls, Column::text("Whirl of the shaft"))];
+    let more = more.into_iter().filter(|(shown, _)| *shown).map(|(_, column)| column);
+    let columns = columns.into_iter().chain(more);
     let rows = LISTED_MODES.min(unloaded_hz.len().max(listed.len()));
     let share = |value: f64| Cell::text(format!("{:.0}", 100.0 * value)).value(100.0 * value);
     let rows = (0..rows).map(|row| {
@@ -62,7 +67,11 @@ pub(crate) fn mode_table(unloaded_hz: &[f64], loaded: &LoadedModes) -> Table {
         let [structure, shaft, balls] = shares.map(|value| value.map_or_else(|| Cell::text(""), share));
         let unloaded = Cell::number_or(unloaded_hz.get(row).copied(), 5, "");
         let loaded = Cell::number_or(mode.map(|mode| mode.frequency_hz), 5, "");
-        [Cell::text((row + 1).to_string()), unloaded, loaded, structure, shaft, balls]
+        let damping = mode.and_then(|mode| mode.damping_ratio).map(|ratio| 100.0 * ratio);
+        let more = [(damped, Cell::number_or(damping, 3, "")), (whirls, Cell::text(mode.map_or("", whirl_words)))];
+        let more = more.into_iter().filter(|(shown, _)| *shown).map(|(_, cell)| cell);
+        let row = [Cell::text((row + 1).to_string()), unloaded, loaded, structure, shaft, balls];
+        row.into_iter().chain(more).collect::<Vec<_>>()
     });
     let mut table = Table::new("Eigenfrequencies", columns).rows(rows).footnote(
         "Shares are those of the kinetic energy. Columns are sorted by frequency: a row does not pair modes.",
@@ -77,6 +86,22 @@ pub(crate) fn mode_table(unloaded_hz: &[f64], loaded: &LoadedModes) -> Table {
         table = table.footnote(format!("{count} {why}"));
     }
     table
+}
+
+/// Share of the kinetic energy from which on the shaft's whirl is told, and how round it has to be.
+const WHIRLS: f64 = 0.01;
+const ROUND: f64 = 0.1;
+
+/// Which way the shaft goes round in a mode; nothing where it hardly moves.
+fn whirl_words(mode: &LoadedMode) -> &'static str {
+    match mode.whirl {
+        Some(whirl) if mode.shaft_share >= WHIRLS => match whirl {
+            whirl if whirl > ROUND => "forward",
+            whirl if whirl < -ROUND => "backward",
+            _ => "on a line",
+        },
+        _ => "",
+    }
 }
 
 /// Expected against found.

@@ -1,13 +1,14 @@
 //! `plummer run`: equilibrium, transient, signals, analysis.
 
+use super::machine::{BearingModel, Machine, PlaneMachine, SpatialMachine};
 use super::recording::{Checkpoints, InMemory, Recording};
 use super::scalogram::SensorScalogram;
 use super::simulation::{RunEnd, Simulation, Span};
-use crate::app::case::Case;
+use crate::app::case::{AskedRun, Case, RunCase, SpatialCase, Transient};
 use crate::app::commands::analyze::{AnalysisSettings, WindowAnalysis, analyse};
 use crate::app::commands::run::choice::{Horizon, ModelChoice};
 use crate::app::error::ComputeError;
-use crate::app::scene::Scene;
+use crate::app::scene::{MachineScene, Scene};
 use crate::numerics::Watch;
 use crate::report::significant;
 use crate::signal::diagnosis::Kinematics;
@@ -24,18 +25,16 @@ const NO_ENERGY: &str = "energy: a balance needs `bearing.formulation = \"consis
 #[derive(Debug)]
 pub struct RunResult<R = RunRecord> {
     /// What was simulated.
-    pub scene: Scene,
-    /// Its equilibrium among the others, and over a ball pass.
-    pub statics: Statics,
+    pub machine: Machine,
+    /// Which model of the bearing it is, and why.
+    pub bearing_model: BearingModel,
     /// The model, and why it is this one.
     pub choice: ModelChoice,
     /// How long its estimated error was seen to hold; `None` where this was not measured.
     pub horizon: Option<Horizon>,
-    /// Modes linearised there.
-    pub loaded: LoadedModes,
     /// The signals, and what they took.
     pub simulation: Simulation<R>,
-    /// Analysed windows of all sensors.
+    /// Analysed windows of all sensors, bearing by bearing.
     pub windows: Vec<WindowAnalysis>,
     /// Scalograms of all sensors, if the case asks for them.
     pub scalograms: Vec<SensorScalogram>,
@@ -58,10 +57,17 @@ pub fn compute_run(case: &Case, watch: &impl Watch) -> Result<RunResult, Compute
 /// # Errors
 /// As [`compute_run`].
 pub(crate) fn explain_run(case: &Case, watch: &impl Watch) -> Result<(ModelChoice, Vec<String>), ComputeError> {
-    let run = case.for_run()?;
-    let scene = Scene::build(run, watch)?;
-    let choice = ModelChoice::of_case(run, &scene)?;
-    let warnings = [scene.doubts, choice.warnings()].concat();
+    let (choice, doubts) = match case.asked_run()? {
+        AskedRun::InPlane(run) => {
+            let scene = Scene::build(run, watch)?;
+            (ModelChoice::of_case(run, &scene)?, scene.doubts)
+        }
+        AskedRun::InSpace(spatial, asked) => {
+            let scene = MachineScene::build(&spatial, [asked.start, asked.end], watch)?;
+            (ModelChoice::in_space(case, asked, &scene)?, scene.doubts)
+        }
+    };
+    let warnings = [doubts, choice.warnings()].concat();
     Ok((choice, warnings))
 }
 
@@ -74,8 +80,18 @@ pub(crate) fn compute_kept_run<C: Checkpoints>(
     watch: &impl Watch,
     checkpoints: &mut C,
 ) -> Result<RunResult<C::Record>, ComputeError> {
-    let run = case.for_run()?;
-    let asked = run.transient;
+    match case.asked_run()? {
+        AskedRun::InPlane(run) => run_in_plane(run, watch, checkpoints),
+        AskedRun::InSpace(spatial, asked) => run_in_space(&spatial, asked, watch, checkpoints),
+    }
+}
+
+fn run_in_plane<C: Checkpoints>(
+    run: RunCase<'_>,
+    watch: &impl Watch,
+    checkpoints: &mut C,
+) -> Result<RunResult<C::Record>, ComputeError> {
+    let (case, asked) = (run.case, run.transient);
     let mut scene = Scene::build(run, watch)?;
     let statics = Statics::compute(&scene.stage.structure, &scene.setup, asked.start)?;
     watch.stage("linearise");
@@ -83,35 +99,48 @@ pub(crate) fn compute_kept_run<C: Checkpoints>(
     watch.stage("choose the model");
     let choice = ModelChoice::of_case(run, &scene)?;
     scene.setup.balls_inertia = choice.model.balls_inertia;
-    let span = Span { duration: asked.end - asked.start, output_hz: asked.output_hz };
     watch.stage("compare with a finer run");
-    let horizon = Horizon::of(run, &scene, &choice);
+    let horizon = Horizon::of_any(case, asked, &scene, &choice);
     watch.stage("step");
-    let samples = span.duration / choice.model.step;
-    let energy = case.analysis.energy.unwrap_or(samples <= ENERGY_SAMPLES);
+    let (span, energy) = (span(asked), takes_energy(case, asked, &choice));
     let fraction = |done| watch.fraction(done);
     let simulation = Simulation::kept_from_rest(&scene, &choice.model, span, energy, checkpoints, fraction)?;
-    let mut warnings = [scene.doubts.clone(), choice.warnings()].concat();
-    warnings.extend(energy_warning(simulation.energy.as_ref()));
-    let mut result = RunResult {
-        warnings,
-        scene,
-        statics,
-        choice,
-        horizon,
-        loaded,
-        simulation,
-        windows: Vec::new(),
-        scalograms: Vec::new(),
-        not_analysed: Vec::new(),
-    };
+    let machine = Machine::InPlane(Box::new(PlaneMachine { scene, statics, loaded }));
     watch.stage("analyse");
-    result.analyse(case);
-    let complete = matches!(result.simulation.end, RunEnd::Complete);
-    if case.analysis.energy == Some(true) && complete && result.simulation.energy.is_none() {
-        result.not_analysed.push(NO_ENERGY.to_owned());
-    }
-    Ok(result)
+    Ok(RunResult::analysed(case, machine, BearingModel::in_plane(), choice, horizon, simulation))
+}
+
+fn run_in_space<C: Checkpoints>(
+    spatial: &SpatialCase<'_>,
+    asked: &Transient,
+    watch: &impl Watch,
+    checkpoints: &mut C,
+) -> Result<RunResult<C::Record>, ComputeError> {
+    let case = spatial.case;
+    let scene = MachineScene::build(spatial, [asked.start, asked.end], watch)?;
+    watch.stage("linearise");
+    let loaded = scene.loaded_modes()?;
+    watch.stage("choose the model");
+    let choice = ModelChoice::in_space(case, asked, &scene)?;
+    watch.stage("compare with a finer run");
+    let horizon = Horizon::of_any(case, asked, &scene, &choice);
+    watch.stage("step");
+    let (span, energy) = (span(asked), takes_energy(case, asked, &choice));
+    let (system, state) = scene.at_rest(&choice.model, scene.start)?;
+    let fraction = |done| watch.fraction(done);
+    let simulation = Simulation::kept(system, state, &choice.model, span, energy, checkpoints, fraction)?;
+    let machine = Machine::InSpace(Box::new(SpatialMachine { scene, loaded }));
+    watch.stage("analyse");
+    Ok(RunResult::analysed(case, machine, BearingModel::in_space(spatial), choice, horizon, simulation))
+}
+
+fn span(asked: &Transient) -> Span {
+    Span { duration: asked.end - asked.start, output_hz: asked.output_hz }
+}
+
+fn takes_energy(case: &Case, asked: &Transient, choice: &ModelChoice) -> bool {
+    let samples = (asked.end - asked.start) / choice.model.step;
+    case.analysis.energy.unwrap_or(samples <= ENERGY_SAMPLES)
 }
 
 /// Energy that does not add up, in units of what was exchanged, from which on a run is doubted. Runs in steps that resolve their contacts missed by 6e-3
@@ -163,18 +192,60 @@ impl<R: Recording> RunResult<R> {
         )
     }
 
-    /// Envelope analysis of every sensor; a window that the record does not reach is named instead.
+    /// The result of a simulation that has ended, its signals analysed.
+    fn analysed(
+        case: &Case,
+        machine: Machine,
+        bearing_model: BearingModel,
+        choice: ModelChoice,
+        horizon: Option<Horizon>,
+        simulation: Simulation<R>,
+    ) -> Self {
+        let mut warnings = [machine.doubts(), &choice.warnings()].concat();
+        warnings.extend(energy_warning(simulation.energy.as_ref()));
+        warnings.extend(machine.alike());
+        let mut result = Self {
+            machine,
+            bearing_model,
+            choice,
+            horizon,
+            simulation,
+            windows: Vec::new(),
+            scalograms: Vec::new(),
+            not_analysed: Vec::new(),
+            warnings,
+        };
+        result.analyse(case);
+        let complete = matches!(result.simulation.end, RunEnd::Complete);
+        if case.analysis.energy == Some(true) && complete && result.simulation.energy.is_none() {
+            result.not_analysed.push(NO_ENERGY.to_owned());
+        }
+        result
+    }
+
+    /// Envelope analysis of every sensor for every bearing; a window that the record does not reach is named instead.
     fn analyse(&mut self, case: &Case) {
-        let settings = AnalysisSettings::of(case);
+        let bearings = self.machine.bearings();
+        for (bearing, seat) in bearings.iter().zip(case.seats()) {
+            let settings = AnalysisSettings::of(case, seat.bearing, bearing.pressed);
+            let kinematics = Kinematics::of(bearing.cage, bearing.balls, bearing.orders);
+            for (index, name) in self.simulation.record.layout().sensors.iter().enumerate() {
+                let read = |window, margin| self.simulation.stretch(index, window, margin);
+                match analyse(name, &settings, read, &kinematics) {
+                    Ok(windows) => {
+                        self.windows.extend(windows.into_iter().map(|window| window.of_bearing(bearing.label)))
+                    }
+                    Err(error) if seat.is_first() => self.not_analysed.push(format!("{name}: {error}")),
+                    Err(_) => {}
+                }
+            }
+        }
+        let Some(window) = case.analysis.scalogram else { return };
         for (index, name) in self.simulation.record.layout().sensors.iter().enumerate() {
-            let read = |window, margin| self.simulation.stretch(index, window, margin);
-            let kinematics = Kinematics::of(&self.scene.setup.cage, &self.scene.setup.geometry);
-            let mut failed = |error: ComputeError| self.not_analysed.push(format!("{name}: {error}"));
-            let windows = analyse(name, &settings, read, &kinematics);
-            self.windows.extend(windows.map_err(&mut failed).unwrap_or_default());
-            let asked = case.analysis.scalogram;
-            let scalogram = asked.map(|window| SensorScalogram::of(&self.simulation, index, window));
-            self.scalograms.extend(scalogram.and_then(|found| found.map_err(&mut failed).ok()));
+            match SensorScalogram::of(&self.simulation, index, window) {
+                Ok(scalogram) => self.scalograms.push(scalogram),
+                Err(error) => self.not_analysed.push(format!("{name}: {error}")),
+            }
         }
     }
 }

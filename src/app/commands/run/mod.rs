@@ -7,6 +7,7 @@
 
 pub mod choice;
 pub(crate) mod compute;
+mod machine;
 pub(crate) mod recording;
 pub(crate) mod report;
 pub(crate) mod scalogram;
@@ -18,8 +19,12 @@ pub mod unfinished;
 
 pub use compute::{RunResult, compute_run};
 pub(crate) use compute::{compute_kept_run, explain_run};
+pub use machine::{BearingModel, Machine, PlaneMachine, SpatialMachine};
 pub use recording::{Checkpoints, InMemory, Recording, RunRequest, TakePiece};
-pub(crate) use report::{cost, run_report};
+pub(crate) use report::{bearing_part, cost, run_report};
 pub use scalogram::SensorScalogram;
 pub use simulation::{RunEnd, Simulation, Span};
-pub use summary::{EnergySummary, EquilibriumSummary, ExplainSummary, ModelSummary, OtherEquilibrium, RunSummary};
+pub use summary::{
+    BearingSummary, EnergySummary, EquilibriumSummary, ExplainSummary, ModelSummary, OtherEquilibrium, RunSummary,
+    ShaftSummary,
+};

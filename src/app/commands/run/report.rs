@@ -2,6 +2,7 @@
 
 use super::choice::ChosenPart;
 use super::compute::RunResult;
+use super::machine::Machine;
 use super::recording::Recording;
 use super::scalogram::SensorScalogram;
 use super::simulation::RunEnd;
@@ -12,7 +13,9 @@ use crate::app::commands::analyze::{AnalysisRow, SHOWN_WINDOWS};
 use crate::app::commands::parts;
 use crate::app::commands::parts::ExpectedMode;
 use crate::app::error::ComputeError;
-use crate::report::{Axis, Curve, Fact, Plot, Report, SIGNAL_POINTS, Section, Thinner, Verdict, given, significant};
+use crate::report::{
+    Axis, Curve, Fact, Plot, Report, SIGNAL_POINTS, Section, Table, Thinner, Verdict, given, significant,
+};
 use crate::system::Column;
 
 /// Unloaded modes listed beside the loaded ones.
@@ -32,10 +35,16 @@ pub(crate) fn run_report<R: Recording>(
     let name = case.source.path.display().to_string();
     let of_many = result.windows.iter().filter(|_| !few);
     let rows: Vec<AnalysisRow> = of_many.map(|window| AnalysisRow::of(&name, window.clone())).collect();
-    let faults = case.bearing.iter().flat_map(parts::faults).collect::<Vec<_>>().join("; ");
-    let faults = if faults.is_empty() { parts::NO_FAULT.to_owned() } else { faults };
-    report = report.headline("Fault of the bearing in this case", faults, Verdict::None);
-    let truth = |diagnosis: &_| parts::not_shown(case, diagnosis);
+    for (label, bearing) in case.all_bearings() {
+        let faults = parts::faults(bearing).join("; ");
+        let faults = if faults.is_empty() { parts::NO_FAULT.to_owned() } else { faults };
+        let name = match label.as_str() {
+            "" => "Fault of the bearing in this case".to_owned(),
+            label => format!("Fault of bearing {label} in this case"),
+        };
+        report = report.headline(name, faults, Verdict::None);
+    }
+    let truth = |window: &_| parts::not_shown(case, window);
     report = if few { verdict_headlines(report, &result.windows, truth) } else { counts(report, &rows) };
     report = headlines(report, result);
     if let RunEnd::BlewUp(error) = &result.simulation.end {
@@ -54,32 +63,55 @@ pub(crate) fn run_report<R: Recording>(
     let scalograms = result.scalograms.iter().take(SHOWN_WINDOWS);
     report.sections.extend(scalograms.map(SensorScalogram::section));
     report = report.section(frequencies(case, result));
-    let (stage, setup) = (&result.scene.stage, &result.scene.setup);
+    let (stage, in_plane) = (result.machine.stage(), result.machine.in_plane());
+    let setup = in_plane.map(|machine| &machine.scene.setup);
     let facts = parts::model_facts(&stage.bodies, Some(stage.fixed_interface_modes));
-    let model = Section::new("Model").drawing(parts::draw(case, &stage.bodies, Some(setup))).facts(facts);
-    let bearing = parts::bearing_table(setup, &result.scene.contacts, Some(&result.scene.equilibrium));
+    let model = Section::new("Model").drawing(parts::draw(case, &stage.bodies, setup)).facts(facts);
     let choice = Section::new("What was modelled, and why")
         .paragraph(format!("{}.", capital(&result.estimate_sentence())))
         .table(result.choice.table());
+    let title = if in_plane.is_some() { "Bearing" } else { "Bearings" };
     report = report
         .section(model)
         .section(choice)
-        .section(Section::new("Bearing").table(bearing))
-        .section(parts::statics_section(setup, &result.statics))
+        .section(Section::new(title).table(bearing_part(&result.machine)))
+        .section(match &result.machine {
+            Machine::InPlane(machine) => parts::statics_section(&machine.scene.setup, &machine.statics),
+            Machine::InSpace(machine) => parts::shaft_at_rest(&machine.scene.setup, &machine.scene.equilibrium),
+        })
         .section(Section::new("Computation").facts(computation(result)));
-    let imported = result.scene.stage.bodies.imported.iter();
+    let imported = stage.bodies.imported.iter();
     report.warnings.extend(imported.flat_map(|imported| imported.notes.iter().cloned()));
-    report.assumptions.extend(parts::assumptions(case, Some(&result.scene.setup)));
+    report.assumptions.extend(parts::assumptions(case, setup));
+    report
+        .assumptions
+        .extend(result.machine.in_space().iter().flat_map(|scene| parts::assumptions_in_space(&scene.setup)));
     Ok(report.assumption(
         "Accelerations are band-limited to 0.4 of the output rate before sampling; positions and forces are instantaneous values.",
     ))
 }
 
+/// The bearing in its plane, or all of a machine, in a table.
+pub(crate) fn bearing_part(machine: &Machine) -> Table {
+    match machine {
+        Machine::InPlane(machine) => {
+            let scene = &machine.scene;
+            parts::bearing_table(&scene.setup, &scene.contacts, Some(&scene.equilibrium))
+        }
+        Machine::InSpace(machine) => {
+            let scene = &machine.scene;
+            parts::bearings_table(&scene.setup, &scene.orders, &scene.equilibrium)
+        }
+    }
+}
+
 /// The case in words, and the model that was chosen for it.
 fn inputs<R: Recording>(case: &Case, result: &RunResult<R>) -> Section {
-    let size = result.scene.stage.bodies.housing.as_ref().map(parts::HousingSize::of_housing);
+    let size = result.machine.stage().bodies.housing.as_ref().map(parts::HousingSize::of_housing);
     let part = |part: &ChosenPart| Fact::new(format!("Model: {}", part.what), &part.chosen).note(capital(&part.why));
-    let chosen = result.choice.parts.iter().map(part);
+    let bearing = &result.bearing_model;
+    let bearing = Fact::new("Model: bearing", bearing.chosen).note(capital(&bearing.why));
+    let chosen = std::iter::once(bearing).chain(result.choice.parts.iter().map(part));
     Section::new("Inputs").facts(parts::inputs(case, Purpose::Run, size.as_ref()).into_iter().chain(chosen))
 }
 
@@ -140,16 +172,17 @@ fn signals<R: Recording>(result: &RunResult<R>) -> Result<Section, ComputeError>
 }
 
 fn frequencies<R: Recording>(case: &Case, result: &RunResult<R>) -> Section {
-    let modes = &result.scene.stage.modes;
+    let modes = &result.machine.stage().modes;
     let unloaded: Vec<f64> = (0..modes.count().min(LISTED_MODES)).map(|mode| modes.frequency_hz(mode)).collect();
-    let nearest_hz = |hz| result.loaded.nearest(hz).map(|mode| mode.frequency_hz);
+    let loaded = result.machine.loaded();
+    let nearest_hz = |hz| loaded.nearest(hz).map(|mode| mode.frequency_hz);
     let expected = case.modes.expected.iter().map(|expected| ExpectedMode::of(expected, nearest_hz(expected.hz)));
     let expected: Vec<ExpectedMode> = expected.collect();
     let mut section = Section::new("Eigenfrequencies");
     if !expected.is_empty() {
         section = section.table(parts::expected_table(&expected));
     }
-    section.table(parts::mode_table(&unloaded, &result.loaded))
+    section.table(parts::mode_table(&unloaded, loaded))
 }
 
 fn computation<R: Recording>(result: &RunResult<R>) -> Vec<Fact> {
@@ -168,7 +201,8 @@ fn computation<R: Recording>(result: &RunResult<R>) -> Vec<Fact> {
         Fact::new("Method", simulation.method.name()),
         Fact::new("Step", format!("{} s", significant(simulation.step_s(), 4))),
         Fact::new("Steps", steps.to_string()),
-        Fact::new("Kept modes", format!("{} of {}", simulation.modes, result.scene.stage.structure.dof())).note(others),
+        Fact::new("Kept modes", format!("{} of {}", simulation.modes, result.machine.stage().structure.dof()))
+            .note(others),
         Fact::new("Wall time of the stepping", format!("{} s", significant(simulation.stepping_s, 3))),
         Fact::new("Computing per simulated second", format!("{} s", cost(simulation.realtime_factor())))
             .note("wall time of the stepping over simulated time"),

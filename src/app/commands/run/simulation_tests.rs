@@ -256,8 +256,14 @@ fn an_envelope_of_a_stretch_is_that_of_the_whole_signal() {
     });
     let simulation = with_signal(values.collect());
     let analysed = |read: &dyn Fn(TimeWindow, f64) -> Result<TimeSeries, ComputeError>| {
-        let settings = AnalysisSettings::of(&case);
-        let mut windows = analyse("P1", &settings, read, &Kinematics::of(&setup.cage, &setup.geometry)).unwrap();
+        let settings = AnalysisSettings::of(&case, case.bearing.as_ref(), false);
+        let mut windows = analyse(
+            "P1",
+            &settings,
+            read,
+            &Kinematics::of(&setup.cage, setup.geometry.balls(), setup.geometry.orders()),
+        )
+        .unwrap();
         windows.remove(0).spectrum.spectrum.amplitude
     };
     let part = analysed(&|window, margin| simulation.stretch(0, window, margin));

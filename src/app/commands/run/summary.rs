@@ -4,8 +4,11 @@ use super::choice::{ChosenPart, ModelChoice};
 use super::{Recording, RunEnd, RunResult};
 use crate::app::commands::analyze::WindowAnalysis;
 use crate::app::commands::parts::SuperelementSummary;
+use crate::app::scene::MachineScene;
 use crate::bearing::kinematics::DefectOrders;
-use crate::system::{BallLoad, BallsInertia, EnergyBalance, Equilibrium};
+use crate::system::{
+    BallLoad, BallsInertia, BearingInPlace, EnergyBalance, Equilibrium, SpatialBallLoad, SpatialEquilibrium,
+};
 use schemars::JsonSchema;
 use serde::Serialize;
 
@@ -41,12 +44,21 @@ pub struct RunSummary<'a> {
     pub estimate_looked_s: Option<f64>,
     /// The energy balance; `None` where it was not asked for, where the equations have none, and after a blow-up.
     pub energy: Option<EnergySummary>,
-    /// Where the run began.
-    pub equilibrium: EquilibriumSummary,
-    /// Other equilibria that were found.
-    pub other_equilibria: Vec<OtherEquilibrium>,
-    /// How often the parts of the bearing strike in a turn of the shaft.
-    pub defect_orders: DefectOrders,
+    /// Where the run of a bearing in its plane began.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub equilibrium: Option<EquilibriumSummary>,
+    /// Other equilibria of it that were found.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub other_equilibria: Option<Vec<OtherEquilibrium>>,
+    /// How often the parts of the bearing in its plane strike in a turn of the shaft.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub defect_orders: Option<DefectOrders>,
+    /// Where the run of a shaft in space began.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub shaft: Option<ShaftSummary>,
+    /// Its bearings.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub bearings: Vec<BearingSummary<'a>>,
     /// Analysed windows of all sensors.
     pub windows: &'a [WindowAnalysis],
     /// The superelement in the housing's place, if there is one.
@@ -60,6 +72,10 @@ pub struct RunSummary<'a> {
 /// What of a case was modelled.
 #[derive(Debug, Clone, Serialize, JsonSchema)]
 pub struct ModelSummary<'a> {
+    /// "in its plane" or "in space": the model of the bearing.
+    pub bearing: &'static str,
+    /// Why it is this one.
+    pub bearing_why: &'a str,
     /// Kept modes of ring and housing.
     pub modes: usize,
     /// Of how many.
@@ -111,6 +127,40 @@ pub struct EquilibriumSummary {
     pub iterations: usize,
 }
 
+/// Where a shaft in space begins.
+#[derive(Debug, Clone, Serialize, JsonSchema)]
+pub struct ShaftSummary {
+    /// Displacement of its centre of mass along x, y, z, m.
+    pub displacement_m: [f64; 3],
+    /// Tilt about x and y, rad.
+    pub tilt_rad: [f64; 2],
+    /// Stiffness that a further load on it meets, over x, y, z and the tilts: N/m, N/rad, N, N m/rad.
+    pub stiffness: [[f64; 5]; 5],
+    /// Directions in which the potential falls: none in a stable equilibrium.
+    pub directions_down: usize,
+    /// Largest force out of balance, N.
+    pub residual_n: f64,
+}
+
+/// A bearing of a shaft in space.
+#[derive(Debug, Clone, Serialize, JsonSchema)]
+pub struct BearingSummary<'a> {
+    /// What results call it; empty for the only one.
+    pub label: &'a str,
+    /// Place along the shaft from its centre of mass, m.
+    pub place_m: f64,
+    /// How often its parts strike in a turn of the shaft, at the contact angles in force.
+    pub defect_orders: DefectOrders,
+    /// Azimuth of each ball, rad.
+    pub ball_angle_rad: Vec<f64>,
+    /// Contact angle of each ball at the inner and the outer race, rad; null without contact.
+    pub contact_angle_rad: Vec<[Option<f64>; 2]>,
+    /// Force of the inner race on each ball, N.
+    pub inner_force_n: Vec<f64>,
+    /// Force of the outer race on each ball, N.
+    pub outer_force_n: Vec<f64>,
+}
+
 /// An equilibrium beside that of the run.
 #[derive(Debug, Clone, Serialize, JsonSchema)]
 pub struct OtherEquilibrium {
@@ -145,7 +195,8 @@ impl ModelChoice {
 impl<R: Recording> RunResult<R> {
     /// What `run.json` says of it.
     pub(crate) fn summary(&self) -> RunSummary<'_> {
-        let (scene, simulation) = (&self.scene, &self.simulation);
+        let (stage, simulation) = (self.machine.stage(), &self.simulation);
+        let in_plane = self.machine.in_plane();
         let other = |other: &Equilibrium| OtherEquilibrium {
             shaft_m: other.shaft,
             inner_force_n: other.balls.iter().map(|ball| ball.inner).collect(),
@@ -164,9 +215,11 @@ impl<R: Recording> RunResult<R> {
                 RunEnd::BlewUp(error) => error.to_string(),
             },
             model: ModelSummary {
+                bearing: self.bearing_model.chosen,
+                bearing_why: &self.bearing_model.why,
                 modes: simulation.modes,
-                of_modes: scene.stage.structure.dof(),
-                fixed_interface_modes: scene.stage.fixed_interface_modes,
+                of_modes: stage.structure.dof(),
+                fixed_interface_modes: stage.fixed_interface_modes,
                 balls: self.choice.model.balls_inertia,
                 residual: simulation.residual,
                 why: &self.choice.parts,
@@ -176,11 +229,13 @@ impl<R: Recording> RunResult<R> {
             estimate_from_s: self.horizon.map(|horizon| horizon.from_s),
             estimate_looked_s: self.horizon.map(|horizon| horizon.looked_s),
             energy: simulation.energy.map(EnergySummary::of),
-            equilibrium: EquilibriumSummary::of(&scene.equilibrium),
-            other_equilibria: self.statics.equilibria.iter().skip(1).map(other).collect(),
-            defect_orders: scene.setup.geometry.orders(),
+            equilibrium: in_plane.map(|machine| EquilibriumSummary::of(&machine.scene.equilibrium)),
+            other_equilibria: in_plane.map(|machine| machine.statics.equilibria.iter().skip(1).map(other).collect()),
+            defect_orders: in_plane.map(|machine| machine.scene.setup.geometry.orders()),
+            shaft: self.machine.in_space().map(|scene| ShaftSummary::of(&scene.equilibrium)),
+            bearings: self.machine.in_space().map(BearingSummary::all_of).unwrap_or_default(),
             windows: &self.windows,
-            superelement: SuperelementSummary::of(&scene.stage.bodies),
+            superelement: SuperelementSummary::of(&stage.bodies),
             not_analysed: &self.not_analysed,
             warnings: &self.warnings,
         }
@@ -190,6 +245,35 @@ impl<R: Recording> RunResult<R> {
 impl EnergySummary {
     fn of(flows: EnergyBalance) -> Self {
         Self { input: flows.input_j(), dissipated: flows.dissipated_j(), balance_error: flows.error(), flows }
+    }
+}
+
+impl ShaftSummary {
+    fn of(rest: &SpatialEquilibrium) -> Self {
+        let [x, y, z, a, b] = rest.shaft;
+        Self {
+            displacement_m: [x, y, z],
+            tilt_rad: [a, b],
+            stiffness: rest.shaft_stiffness,
+            directions_down: rest.directions_down,
+            residual_n: rest.residual_n,
+        }
+    }
+}
+
+impl<'a> BearingSummary<'a> {
+    fn all_of(scene: &'a MachineScene) -> Vec<Self> {
+        let bearings = scene.setup.bearings.iter().zip(&scene.orders).zip(&scene.equilibrium.bearings);
+        let summary = |((own, orders), balls): ((&'a BearingInPlace, &DefectOrders), &Vec<SpatialBallLoad>)| Self {
+            label: &own.label,
+            place_m: own.place,
+            defect_orders: *orders,
+            ball_angle_rad: balls.iter().map(|ball| ball.azimuth).collect(),
+            contact_angle_rad: balls.iter().map(|ball| ball.contact_angle).collect(),
+            inner_force_n: balls.iter().map(|ball| ball.load[0]).collect(),
+            outer_force_n: balls.iter().map(|ball| ball.load[1]).collect(),
+        };
+        bearings.map(summary).collect()
     }
 }
 

@@ -5,9 +5,9 @@
 //! 20 %, window by window, until both part. What the finer run lacks as well, vectors of a condensed housing, is taken to grow as this does.
 
 use super::model_choice::{CONDENSATION, Measured, ModelChoice, SUPERELEMENT};
-use super::pilot::{LONG, SAFETY, compared, held_s, long_begin, stretch_s};
+use super::pilot::{LONG, SAFETY, Stepped, compared, held_s, long_begin, stretch_s};
 use super::quantities::USUAL_BAND;
-use crate::app::case::RunCase;
+use crate::app::case::{Case, RunCase, Transient};
 use crate::app::commands::run::Span;
 use crate::app::scene::Scene;
 use crate::report::significant;
@@ -36,13 +36,17 @@ impl Horizon {
     /// Steps the beginning of a run by its model and by a finer one, where balls strike; else the estimate is from such a comparison already. `None` for a
     /// model whose error of modes and steps is not measured, or a stretch that cannot be stepped.
     pub fn of(run: RunCase<'_>, scene: &Scene, choice: &ModelChoice) -> Option<Self> {
-        let asked = run.transient;
+        Self::of_any(run.case, run.transient, scene, choice)
+    }
+
+    /// The same of any scene.
+    pub(crate) fn of_any(case: &Case, asked: &Transient, scene: &impl Stepped, choice: &ModelChoice) -> Option<Self> {
         let (start_s, run_s) = (asked.start, asked.end - asked.start);
         if choice.growth <= 1.0 {
             let Measured { from_s, length_s: looked_s, .. } = choice.measured?;
             return Some(Self { from_s, held_s: looked_s, looked_s, start_s, run_s, strikes: false });
         }
-        let band_hz = run.case.band_hz().map_or(USUAL_BAND, |band| band[1]);
+        let band_hz = case.band_hz().map_or(USUAL_BAND, |band| band[1]);
         let finer = choice.measured?.finer;
         let most = choice.share_of_steps()? / SAFETY;
         let first_s = stretch_s(asked, band_hz);
@@ -118,7 +122,6 @@ impl ModelChoice {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::app::case::Case;
     use crate::app::commands::run::choice::ModelChoice;
     use crate::numerics::Unwatched;
 

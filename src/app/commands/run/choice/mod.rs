@@ -1,6 +1,7 @@
 //! How much of a scene a run models, and in which steps.
 
 pub(crate) mod horizon;
+pub(crate) mod in_space;
 pub(crate) mod loaded_errors;
 pub(crate) mod model_choice;
 pub(crate) mod modes;

@@ -13,12 +13,56 @@ use crate::app::case;
 use crate::app::commands::run::{InMemory, RunEnd, Simulation, Span};
 use crate::app::error::ComputeError;
 use crate::app::scene::{RunModel, Scene};
-use crate::bearing::Race;
+use crate::bearing::defect::RaceDefect;
+use crate::bearing::{Cage, Race};
 use crate::numerics::ode::Method;
 use crate::numerics::series::TimeSeries;
 use crate::report::significant;
 use crate::signal::{band_limit_from_rest, relative_difference};
 use crate::system::{Equilibrium, Formulation, ModeSelection, StaticCondition};
+
+/// A scene that is stepped from rest at any instant.
+pub(crate) trait Stepped: Sync {
+    /// The simulation of a stretch that begins (s) at rest.
+    ///
+    /// # Errors
+    /// [`ComputeError`] where nothing rests then, or for a model that does not fit.
+    fn stepped_from_rest(&self, model: &RunModel, span: Span, begin: f64) -> Result<Simulation, ComputeError>;
+
+    /// An instant (s) of the highest speed that leaves `spare` seconds of the run before it at most, just before a ball strikes.
+    fn before_a_strike(&self, asked: &case::Transient, spare: f64) -> f64;
+
+    /// Between which instants (s) the loads change fastest; `None` where they do not change.
+    fn fastest_change(&self, asked: &case::Transient) -> Option<[f64; 2]>;
+}
+
+impl Stepped for Scene {
+    fn stepped_from_rest(&self, model: &RunModel, span: Span, begin: f64) -> Result<Simulation, ComputeError> {
+        let condition = StaticCondition::at(&self.setup, begin);
+        let rest = Equilibrium::find(&self.stage.structure, &self.setup, condition)?;
+        let system = self.system(model)?;
+        let state = system.state_at(begin, &rest, &self.stage.modes);
+        Simulation::kept(system, state, model, span, false, &mut InMemory, |_| ())
+    }
+
+    fn before_a_strike(&self, asked: &case::Transient, spare: f64) -> f64 {
+        begin(asked, self, spare)
+    }
+
+    fn fastest_change(&self, asked: &case::Transient) -> Option<[f64; 2]> {
+        fastest_change(asked, self)
+    }
+}
+
+/// What a stretch is asked for.
+#[derive(Clone, Copy)]
+pub(crate) struct Asked<'a> {
+    pub transient: &'a case::Transient,
+    /// Top of the band, Hz.
+    pub band_hz: f64,
+    /// Whether balls strike.
+    pub strikes: bool,
+}
 
 /// Length of the stretch, s and in periods of the band's highest frequency: the filter to the band needs 26.
 const LEAST_S: f64 = 2e-3;
@@ -28,14 +72,14 @@ const LEAST_PERIODS: f64 = 30.0;
 const MOST_STEPS: f64 = 1e8;
 
 /// How much smaller the second tolerance is, and how much shorter its steps.
-const FINER: f64 = 0.1;
-const SHORTER: f64 = 0.5;
+pub(crate) const FINER: f64 = 0.1;
+pub(crate) const SHORTER: f64 = 0.5;
 
 /// How many times as long the stretch of a change of load is.
 const AFTER: f64 = 3.0;
 
 /// How many times the modes the second one has.
-const MORE: usize = 4;
+pub(crate) const MORE: usize = 4;
 
 /// Instants in the length of the stretch at which the error since the start is looked at.
 const INSTANTS: u32 = 8;
@@ -60,15 +104,16 @@ pub(crate) const SAFETY: f64 = 1.5;
 /// # Errors
 /// Why a stretch says nothing.
 pub(crate) fn measured(
-    RunTask { scene, asked, band_hz, .. }: RunTask<'_>,
+    scene: &impl Stepped,
+    Asked { transient: asked, band_hz, strikes }: Asked<'_>,
     model: &RunModel,
     finer: RunModel,
-    strikes: bool,
 ) -> Result<Measured, String> {
     let (first_s, run_s) = (stretch_s(asked, band_hz), asked.end - asked.start);
     let length_s = if strikes { first_s } else { (LONG * first_s).min(run_s) };
-    let from_s = if strikes { begin(asked, scene, run_s - length_s) } else { long_begin(asked, scene, length_s) };
-    let change = fastest_change(asked, scene).map(|[from, to]| {
+    let from_s =
+        if strikes { scene.before_a_strike(asked, run_s - length_s) } else { long_begin(asked, scene, length_s) };
+    let change = scene.fastest_change(asked).map(|[from, to]| {
         let latest = asked.start + run_s - first_s;
         let begin = from.max(to - first_s).min(latest);
         (begin, (AFTER * first_s).min(asked.end - begin))
@@ -99,7 +144,7 @@ pub(crate) fn measured(
 pub(crate) fn of_steps(task: RunTask<'_>, model: &RunModel, found: &Measured, strikes: bool) -> Option<f64> {
     let finer = RunModel { modes: model.modes, residual: model.residual, ..found.finer };
     let alike = model.balls_inertia == finer.balls_inertia && model.modes != found.finer.modes;
-    let measured = alike.then(|| measured(task, model, finer, strikes))?;
+    let measured = alike.then(|| measured(task.scene, task.stretch(strikes), model, finer))?;
     measured.ok().map(|own| own.error)
 }
 
@@ -124,9 +169,9 @@ fn worst_part(run: &TimeSeries, finer: &TimeSeries, first_s: f64) -> f64 {
 }
 
 /// Begin of a long stretch: that of the run where the stretch is as long, else where a shorter one begins.
-pub(crate) fn long_begin(asked: &case::Transient, scene: &Scene, length_s: f64) -> f64 {
+pub(crate) fn long_begin(asked: &case::Transient, scene: &impl Stepped, length_s: f64) -> f64 {
     match asked.end - asked.start - length_s {
-        spare if spare > 0.0 => begin(asked, scene, spare),
+        spare if spare > 0.0 => scene.before_a_strike(asked, spare),
         _ => asked.start,
     }
 }
@@ -176,7 +221,7 @@ pub(crate) fn finer(task: RunTask<'_>, model: &RunModel) -> Result<Option<RunMod
 /// # Errors
 /// Why one of them cannot be stepped.
 pub(crate) fn compared(
-    scene: &Scene,
+    scene: &impl Stepped,
     [model, finer]: [&RunModel; 2],
     span: Span,
     begin: f64,
@@ -219,14 +264,14 @@ pub(crate) fn held_s([run, finer]: &[Vec<TimeSeries>; 2], most: f64, first_s: f6
 }
 
 /// The sensors' signals in the band over a stretch that begins at rest.
-fn stretch(scene: &Scene, model: &RunModel, span: Span, begin: f64, band_hz: f64) -> Result<Vec<TimeSeries>, String> {
-    let condition = StaticCondition::at(&scene.setup, begin);
-    let rest = Equilibrium::find(&scene.stage.structure, &scene.setup, condition);
-    let rest = rest.map_err(|error| error.to_string())?;
-    let system = scene.system(model).map_err(|error| error.to_string())?;
-    let state = system.state_at(begin, &rest, &scene.stage.modes);
-    let run = Simulation::kept(system, state, model, span, false, &mut InMemory, |_| ());
-    let run = run.map_err(|error| error.to_string())?;
+fn stretch(
+    scene: &impl Stepped,
+    model: &RunModel,
+    span: Span,
+    begin: f64,
+    band_hz: f64,
+) -> Result<Vec<TimeSeries>, String> {
+    let run = scene.stepped_from_rest(model, span, begin).map_err(|error| error.to_string())?;
     if let RunEnd::BlewUp(error) = &run.end {
         return Err(error.to_string());
     }
@@ -256,17 +301,21 @@ pub(crate) fn begin(asked: &case::Transient, scene: &Scene, spare: f64) -> f64 {
 /// in it leaves it. `None` without such a defect, or where balls do not pass it.
 pub(crate) fn next_strike(scene: &Scene, at: f64) -> Option<(f64, Option<f64>)> {
     let setup = &scene.setup;
-    let defect = setup.race_defects.first()?;
-    let cage = setup.cage.motion(at);
+    next_on(setup.race_defects.first()?, &setup.cage, setup.geometry.orders().cage, at)
+}
+
+/// The same of a defect and the balls of a cage of this order without slip.
+pub(crate) fn next_on(defect: &RaceDefect, cage: &Cage, cage_order: f64, at: f64) -> Option<(f64, Option<f64>)> {
+    let motion = cage.motion(at);
     // where the defect is, and how fast balls pass it
     let (turned, passing) = match defect.race() {
-        Race::Outer => (0.0, cage.speed),
-        Race::Inner => (setup.cage.shaft().angle(at), cage.speed - cage.speed / setup.geometry.orders().cage),
+        Race::Outer => (0.0, motion.speed),
+        Race::Inner => (cage.shaft().angle(at), motion.speed - motion.speed / cage_order),
     };
-    let ahead = (defect.angle() + turned - cage.angle) * passing.signum();
+    let ahead = (defect.angle() + turned - motion.angle) * passing.signum();
     let half = 1.5 * defect.contact_half_angle();
-    let edge = (ahead - half).rem_euclid(setup.cage.spacing);
-    let left = Some(edge + 2.0 * half - setup.cage.spacing).filter(|left| *left > 0.0);
+    let edge = (ahead - half).rem_euclid(cage.spacing);
+    let left = Some(edge + 2.0 * half - cage.spacing).filter(|left| *left > 0.0);
     (passing != 0.0).then(|| (edge / passing.abs(), left.map(|left| left / passing.abs())))
 }
 
@@ -287,7 +336,7 @@ mod tests {
         let begin = begin(asked, &scene, asked.end - asked.start - LEAST_S);
         let task = RunTask { scene: &scene, asked, band_hz: 40e3, target: 1e-2, heaviest: None };
         let finer = finer(task, &model).unwrap();
-        let measured = measured(task, &model, finer.unwrap(), true);
+        let measured = measured(&scene, task.stretch(true), &model, finer.unwrap());
         (measured.unwrap().error, begin)
     }
 

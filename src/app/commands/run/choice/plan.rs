@@ -11,14 +11,14 @@ use crate::app::case;
 use crate::app::case::RunCase;
 use crate::app::error::ComputeError;
 use crate::app::scene::structure::{MOST_NUMBERS, complete_for, left_out, wanted_hz};
-use crate::app::scene::{RunModel, Scene};
+use crate::app::scene::{CoupledStructure, RunModel, Scene};
 use crate::numerics::ode::Method;
 use crate::report::significant;
 use crate::system::{BallsInertia, Equilibrium, Formulation};
 
 /// What errors grow to where balls strike, while the solution can be predicted: the largest ratio of the error to the linear
 /// estimate in scenes with play or damage (`cargo test --test program estimates`).
-const IMPACTS_GROWTH: f64 = 6.0;
+pub(crate) const IMPACTS_GROWTH: f64 = 6.0;
 
 /// A model, and why its method and its step.
 type Planned = (RunModel, ChosenPart, ChosenPart);
@@ -46,7 +46,7 @@ impl ModelChoice {
         let planned = |balls_inertia| -> Result<Planned, ComputeError> {
             let mut model =
                 RunModel { modes, residual: asked.residual, balls_inertia, method: Method::Exponential, step: 0.0 };
-            let (method, method_part) = stepping::method(task, &model);
+            let (method, method_part) = stepping::method(asked, target, model.modes);
             model.method = method;
             let (step, step_part) = stepping::step(task, &model)?;
             model.step = step;
@@ -55,7 +55,7 @@ impl ModelChoice {
         let (mut model, mut method_part, mut step_part) = planned(balls_inertia)?;
         let beside = |model: &RunModel, whole: &RunModel| -> Result<Option<Measured>, String> {
             let finer = pilot::finer(task, whole).map_err(|error| error.to_string())?;
-            finer.map(|finer| pilot::measured(task, model, finer, growth > 1.0)).transpose()
+            finer.map(|finer| pilot::measured(scene, task.stretch(growth > 1.0), model, finer)).transpose()
         };
         let mut measured = match balls_inertia {
             BallsInertia::Dynamic => beside(&model, &model),
@@ -108,18 +108,11 @@ impl ModelChoice {
             }
         }
         let mut parts = vec![modes_part, balls_part, method_part, step_part];
-        parts.extend(vectors(case, scene, band_hz));
-        for part in &mut parts {
-            if let Some(error) = part.estimated_error.filter(|error| growth * error > *error) {
-                part.estimated_error = Some(growth * error);
-                part.why += &format!("; {} times the linear estimate, as balls strike", significant(growth, 2));
-            }
-        }
-        let squares = parts.iter().map(|part| part.estimated_error.map(|e| e * e));
-        let sum: Option<f64> = squares.sum();
+        parts.extend(vectors(case, &scene.stage, band_hz));
+        let estimated_error = together(&mut parts, growth);
         Ok(Self {
             model,
-            estimated_error: sum.map(f64::sqrt),
+            estimated_error,
             complete_for_hz: complete_for(band_hz, target / growth),
             growth,
             measured: measured.ok().flatten(),
@@ -128,6 +121,19 @@ impl ModelChoice {
             parts,
         })
     }
+}
+
+/// The root of the sum of the parts' squared errors, each of which grows so many times where balls strike; `None` if one has none.
+pub(crate) fn together(parts: &mut [ChosenPart], growth: f64) -> Option<f64> {
+    for part in parts.iter_mut() {
+        if let Some(error) = part.estimated_error.filter(|error| growth * error > *error) {
+            part.estimated_error = Some(growth * error);
+            part.why += &format!("; {} times the linear estimate, as balls strike", significant(growth, 2));
+        }
+    }
+    let squares = parts.iter().map(|part| part.estimated_error.map(|e| e * e));
+    let sum: Option<f64> = squares.sum();
+    sum.map(f64::sqrt)
 }
 
 /// What errors grow to in a run that begins at rest and meets a heavier load.
@@ -140,8 +146,7 @@ fn growth(scene: &Scene, heaviest: Option<&Equilibrium>) -> f64 {
 }
 
 /// What a superelement from a file or the condensed housing lacks, by [`left_out`].
-fn vectors(case: &case::Case, scene: &Scene, band_hz: f64) -> Option<ChosenPart> {
-    let stage = &scene.stage;
+pub(crate) fn vectors(case: &case::Case, stage: &CoupledStructure, band_hz: f64) -> Option<ChosenPart> {
     let khz = |digits| significant(stage.complete_hz / 1e3, digits);
     let (what, count, why) = match (&stage.bodies.imported, &stage.bodies.housing) {
         (Some(imported), _) => (

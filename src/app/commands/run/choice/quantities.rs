@@ -1,6 +1,7 @@
 //! Quantities of a scene that several estimates use: forces to prepare for, the equilibrium under the heaviest load, the fastest change of
 //! the loads, a ball's vibration, participations of modes.
 
+use super::pilot::Asked;
 use crate::app::case;
 use crate::app::error::ComputeError;
 use crate::app::scene::Scene;
@@ -29,6 +30,13 @@ pub(crate) struct RunTask<'a> {
     pub target: f64,
     /// The instant (s) of the heaviest load and the equilibrium under it; `None` where nothing is heavier than at the start.
     pub heaviest: Option<&'a (f64, Equilibrium)>,
+}
+
+impl<'a> RunTask<'a> {
+    /// What a stretch of it is asked for.
+    pub(crate) fn stretch(self, strikes: bool) -> Asked<'a> {
+        Asked { transient: self.asked, band_hz: self.band_hz, strikes }
+    }
 }
 
 /// The sensors that the estimates of modes look at: all, or every so many of them.

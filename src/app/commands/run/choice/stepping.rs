@@ -27,11 +27,11 @@ const SHORTEST: f64 = 1.0 / 32.0;
 
 /// Largest phase of the highest kept mode in a step: exponential-adams lets energy creep through modes that it does not
 /// resolve, and with a tolerance halves its steps where that shows.
-const MODE_PHASE: f64 = 2.0;
+pub(crate) const MODE_PHASE: f64 = 2.0;
 
 /// Least number of steps in an output interval: the displacement of a sensor is differentiated from them, with an error of 3e-4 for
 /// four.
-const LEAST_SAMPLES: f64 = 4.0;
+pub(crate) const LEAST_SAMPLES: f64 = 4.0;
 
 /// Part of the stable step that is used: contacts at other angles of the balls are a little stiffer.
 const STABLE: f64 = 0.9;
@@ -64,13 +64,13 @@ pub(crate) fn adams(tolerance: f64) -> Method {
 
 /// The method that a case asks for, or exponential-adams with steps by a tolerance, on all modes the exponential one: it has
 /// no limit there.
-pub(crate) fn method(RunTask { asked, target, .. }: RunTask<'_>, model: &RunModel) -> (Method, ChosenPart) {
+pub(crate) fn method(asked: &case::Transient, target: f64, modes: ModeSelection) -> (Method, ChosenPart) {
     let by_steps = asked.step == StepLength::Auto;
     let adams = |given: Option<f64>| Method::ExponentialAdams {
         tolerance: given.or_else(|| by_steps.then(|| tolerance(target))),
     };
     let method = match asked.method {
-        case::Method::Auto if model.modes == ModeSelection::All => Method::Exponential,
+        case::Method::Auto if modes == ModeSelection::All => Method::Exponential,
         case::Method::Auto | case::Method::ExponentialAdams => adams(asked.tolerance),
         case::Method::Exponential => Method::Exponential,
         case::Method::NewmarkExplicit => Method::NewmarkExplicit,
@@ -106,10 +106,17 @@ pub(crate) fn method(RunTask { asked, target, .. }: RunTask<'_>, model: &RunMode
 /// # Errors
 /// [`ComputeError::System`] for a model that does not fit the scene, [`ComputeError::Transient`] for a step that no run takes.
 pub(crate) fn step(task: RunTask<'_>, model: &RunModel) -> Result<(f64, ChosenPart), ComputeError> {
-    let asked = task.asked;
+    step_or(task.asked, || own_step(task, model))
+}
+
+/// The same with `own` for the program's own.
+pub(crate) fn step_or(
+    asked: &case::Transient,
+    own: impl FnOnce() -> Result<(f64, &'static str), ComputeError>,
+) -> Result<(f64, ChosenPart), ComputeError> {
     let (step, why) = match asked.step {
         StepLength::Auto => {
-            let (step, why) = own_step(task, model)?;
+            let (step, why) = own()?;
             (step, why.to_owned())
         }
         StepLength::Seconds(given) => {
@@ -236,7 +243,7 @@ fn resolved(model: &RunModel, scene: &Scene, system: &CoupledSystem) -> f64 {
 }
 
 /// Steps in which a ball passes a defect from end to end, or a wave from crest to crest.
-const STEPS_PER_PASS: f64 = 8.0;
+pub(crate) const STEPS_PER_PASS: f64 = 8.0;
 
 /// The longest step (s) that takes no ball over too much of a defect, flat or wave, at the highest speed of the run; `None` if
 /// there is none or nothing turns.

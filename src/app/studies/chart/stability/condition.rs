@@ -188,8 +188,13 @@ fn load_by(shaft: &mut case::Shaft, factor: f64) {
     for load in &mut shaft.loads {
         match load {
             Load::Constant(force) => *force = force.map(|part| factor * part),
-            Load::Spatial { force, moment } => {
+            Load::Spatial { force, moment, .. } => {
                 force.iter_mut().chain(moment).for_each(|part| *part *= factor);
+            }
+            Load::SpatialProfile { profile, .. } => {
+                for point in profile {
+                    point.force.iter_mut().chain(&mut point.moment).for_each(|part| *part *= factor);
+                }
             }
             Load::Profile(points) => {
                 for point in points {

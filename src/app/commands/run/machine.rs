@@ -1,0 +1,162 @@
+//! What a run simulated: one bearing in its plane, or a shaft in bearings in space.
+
+use crate::app::case::SpatialCase;
+use crate::app::scene::{CoupledStructure, MachineScene, Scene};
+use crate::bearing::kinematics::DefectOrders;
+use crate::bearing::{Cage, SpeedProfile};
+use crate::system::{LoadedModes, Statics};
+
+/// Orders of two bearings nearer than this, relative, belong together in windows of up to some hundred revolutions.
+const ALIKE: f64 = 5e-3;
+
+/// What was simulated.
+#[derive(Debug)]
+pub enum Machine {
+    /// One bearing in its plane.
+    InPlane(Box<PlaneMachine>),
+    /// A shaft in bearings that carry axial load and tilt.
+    InSpace(Box<SpatialMachine>),
+}
+
+/// A bearing in its plane.
+#[derive(Debug)]
+pub struct PlaneMachine {
+    /// The scene.
+    pub scene: Scene,
+    /// Its equilibrium among the others, and over a ball pass.
+    pub statics: Statics,
+    /// Modes linearised there.
+    pub loaded: LoadedModes,
+}
+
+/// A shaft in bearings in space.
+#[derive(Debug)]
+pub struct SpatialMachine {
+    /// The scene.
+    pub scene: MachineScene,
+    /// Modes linearised where it rests.
+    pub loaded: LoadedModes,
+}
+
+/// Which model of the bearing a run has, and why.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct BearingModel {
+    /// "in its plane" or "in space".
+    pub chosen: &'static str,
+    /// Why.
+    pub why: String,
+}
+
+/// A bearing of a machine as an analysis of signals sees it.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct BearingMotion<'a> {
+    /// What results call it; empty for the only one.
+    pub label: &'a str,
+    pub cage: &'a Cage,
+    pub balls: u32,
+    /// Orders without slip.
+    pub orders: DefectOrders,
+    /// Whether preload or thrust hold all its balls.
+    pub pressed: bool,
+}
+
+impl BearingModel {
+    pub(super) fn in_plane() -> Self {
+        let why =
+            "one bearing, loaded across its axis alone: it does not tilt, and its contact angle is zero".to_owned();
+        Self { chosen: "in its plane", why }
+    }
+
+    pub(super) fn in_space(run: &SpatialCase<'_>) -> Self {
+        Self { chosen: "in space", why: run.reason.clone() }
+    }
+}
+
+impl Machine {
+    /// Ring and housing.
+    pub(crate) fn stage(&self) -> &CoupledStructure {
+        match self {
+            Self::InPlane(machine) => &machine.scene.stage,
+            Self::InSpace(machine) => &machine.scene.stage,
+        }
+    }
+
+    /// The bearing in its plane, if it is one.
+    pub fn in_plane(&self) -> Option<&PlaneMachine> {
+        match self {
+            Self::InPlane(machine) => Some(machine),
+            Self::InSpace(_) => None,
+        }
+    }
+
+    /// The shaft in space, if it is one.
+    pub(crate) fn in_space(&self) -> Option<&MachineScene> {
+        match self {
+            Self::InPlane(_) => None,
+            Self::InSpace(machine) => Some(&machine.scene),
+        }
+    }
+
+    /// Modes linearised where it rests.
+    pub(crate) fn loaded(&self) -> &LoadedModes {
+        match self {
+            Self::InPlane(machine) => &machine.loaded,
+            Self::InSpace(machine) => &machine.loaded,
+        }
+    }
+
+    /// Speed of the shaft.
+    pub(crate) fn shaft_speed(&self) -> &SpeedProfile {
+        match self {
+            Self::InPlane(machine) => machine.scene.setup.cage.shaft(),
+            Self::InSpace(machine) => machine.scene.setup.bearings[0].cage.shaft(),
+        }
+    }
+
+    /// What of the model may be meant otherwise, a sentence each.
+    pub(super) fn doubts(&self) -> &[String] {
+        match self {
+            Self::InPlane(machine) => &machine.scene.doubts,
+            Self::InSpace(machine) => &machine.scene.doubts,
+        }
+    }
+
+    /// Its bearings, in the order of the case.
+    pub(crate) fn bearings(&self) -> Vec<BearingMotion<'_>> {
+        match self {
+            Self::InPlane(machine) => {
+                let setup = &machine.scene.setup;
+                let (balls, orders) = (setup.geometry.balls(), setup.geometry.orders());
+                vec![BearingMotion { label: "", cage: &setup.cage, balls, orders, pressed: false }]
+            }
+            Self::InSpace(machine) => {
+                let scene = &machine.scene;
+                let bearings = scene.setup.bearings.iter().zip(&scene.orders).zip(&scene.equilibrium.bearings);
+                let bearings = bearings.map(|((own, orders), at_rest)| {
+                    let balls = own.bearing.geometry().balls();
+                    let pressed = at_rest.iter().all(|ball| ball.load[0] > 0.0 && ball.load[1] > 0.0);
+                    BearingMotion { label: &own.label, cage: &own.cage, balls, orders: *orders, pressed }
+                });
+                bearings.collect()
+            }
+        }
+    }
+
+    /// That bearings strike at the same orders, a sentence a pair.
+    pub(super) fn alike(&self) -> Vec<String> {
+        let bearings = self.bearings();
+        let near = |a: f64, b: f64| (a - b).abs() <= ALIKE * a;
+        let mut found = Vec::new();
+        for (index, one) in bearings.iter().enumerate() {
+            for other in &bearings[..index] {
+                if near(one.orders.outer, other.orders.outer) && near(one.orders.inner, other.orders.inner) {
+                    found.push(format!(
+                        "bearings {} and {} strike at the same orders: a verdict on one holds for the other as well, and only the sensors' levels tell them apart",
+                        other.label, one.label
+                    ));
+                }
+            }
+        }
+        found
+    }
+}
