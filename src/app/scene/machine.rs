@@ -53,7 +53,11 @@ impl MachineScene {
     ///
     /// # Errors
     /// [`ComputeError`] of the stages that it goes through.
-    pub(crate) fn build(run: &SpatialCase<'_>, [start, end]: [f64; 2], watch: &impl Watch) -> Result<Self, ComputeError> {
+    pub(crate) fn build(
+        run: &SpatialCase<'_>,
+        [start, end]: [f64; 2],
+        watch: &impl Watch,
+    ) -> Result<Self, ComputeError> {
         let case = run.case;
         refuse_structural_damping(case)?;
         for seat in &run.seats {
