@@ -147,7 +147,8 @@ fn curves_follow_one_branch() {
     for axis in [0, 2] {
         let along: Option<Vec<f64>> = points.iter().map(|point| Some(point.displacement?[axis])).collect();
         let along = along.unwrap_or_else(|| panic!("a gap in {points:?}"));
-        assert!(along.iter().all(|place| place * along[12] > 0.0), "axis {axis}: {along:?}");
+        // heavy loads leave x = 0 as the only place
+        assert!(along.iter().all(|place| place * along[12].signum() > -1e-12), "axis {axis}: {along:?}");
     }
 }
 
