@@ -251,7 +251,10 @@ impl SpatialBearing {
     fn share(&self, frame: &InnerFrame, azimuth: f64, speed: f64) -> Result<BallShare, BearingError> {
         let (sin, cos) = azimuth.sin_cos();
         let plane = frame.plane([cos, sin], self.law.grooves.outer_centres);
-        let place = self.law.place(&plane, speed)?;
+        let place = self.law.place(&plane, speed).map_err(|BearingError(found)| {
+            let [degrees, rpm] = [azimuth.to_degrees().rem_euclid(360.0), speed * 60.0 / TAU];
+            BearingError(format!("at {rpm:.0} rpm the ball at {degrees:.1} degrees {found}"))
+        })?;
         let seen = plane.seen(place).place;
         let forces = self.law.forces(place, seen, speed);
         if forces.inner.load <= 0.0 && forces.couple.abs() <= 0.0 {

@@ -33,6 +33,10 @@ const FORCE_TOLERANCE: f64 = 1e-13;
 /// The same where steps no longer halve it: the accuracy of the Hertz constants is ten times less.
 const SETTLED: f64 = 1e-11;
 
+/// Passes that set a ball between its races: every one is a hundred times as accurate as the one before. Where a ball is about to touch,
+/// fewer would set it against one race alone, out of balance.
+const PLACINGS: usize = 12;
+
 /// How soon the contact angle that a ball's speeds belong to turns to that of the outer race where the inner contact is lost: by its gap
 /// times this, against the groove's seat. Any value keeps the speeds continuous.
 const LOST: f64 = 4.0;
@@ -235,8 +239,9 @@ impl BallLaw {
             return Start::At(alone);
         }
         // the inner groove's centre as the ball's plane has it; a tilt makes it depend on the place by some per cent
-        let mut place = alone;
-        for _ in 0..4 {
+        let (mut place, mut free) = (alone, false);
+        for _ in 0..PLACINGS {
+            let before = place;
             let line = gap - (plane.seen(place).place - place);
             let distance = line.norm().max(f64::MIN_POSITIVE);
             let direction = line / distance;
@@ -254,10 +259,14 @@ impl BallLaw {
             } else if approach > 0.0 {
                 place = (outer_seat + share * approach) * direction;
             } else {
-                return Start::Free((outer_seat + 0.5 * approach) * direction);
+                place = (outer_seat + 0.5 * approach) * direction;
+            }
+            free = speed.abs() <= 0.0 && approach <= 0.0;
+            if (place - before).norm() <= f64::EPSILON * outer_seat {
+                break;
             }
         }
-        Start::At(place)
+        if free { Start::Free(place) } else { Start::At(place) }
     }
 
     fn newton(&self, plane: &BallPlane, start: Vector2<f64>, speed: f64) -> Result<Vector2<f64>, BearingError> {
@@ -285,8 +294,8 @@ impl BallLaw {
             }
         }
         Err(BearingError(format!(
-            "a ball finds no place between the races: {:.3e} N of {:.3e} N stay out of balance; \
-             load, tilt or speed is more than the grooves hold",
+            "finds no place between the races: {:.3e} N of {:.3e} N stay out of balance; \
+             lower the speed, or change load, tilt or play",
             at.force.norm(),
             at.scale
         )))

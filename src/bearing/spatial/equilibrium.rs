@@ -1,34 +1,13 @@
-//! Where a shaft rests: Newton's method downhill, and the other equilibria that clearance allows.
+//! Where a shaft rests: a search downhill, and the other equilibria that clearance allows.
 //!
-//! Tilts are scaled by the pitch radius, so that all coordinates are lengths and all forces N. The search follows the slope of the
-//! potential along its step, which is known from the forces alone, and works with the balls' inertia too.
+//! Tilts are scaled by the pitch radius, so that all coordinates are lengths and all forces N; see `search.rs`.
 
 use super::assembly::{BearingState, Five, FiveByFive};
 use super::ring::RingDisplacement;
+use super::search::Found;
 use super::shaft::{Balance, RigidShaft, ShaftLoad};
 use crate::bearing::error::{BearingError, refused};
-use nalgebra::{DMatrix, DVector};
 use std::f64::consts::TAU;
-
-/// Newton steps before a search gives up; 10 to 40 are typical.
-const MAX_ITERATIONS: usize = 600;
-
-/// Halvings of a step.
-const HALVINGS: usize = 30;
-
-/// Longest step as a share of the distance of the groove centres: at first, which decides to which of several equilibria a search
-/// leads, and after some patience.
-const LONGEST_STEP: [f64; 2] = [0.01, 0.1];
-const PATIENCE: usize = 60;
-
-/// Force out of balance that counts as none, relative to the largest of the load and the balls' loads.
-const FORCE_TOLERANCE: f64 = 1e-11;
-
-/// Round-off of a penetration, relative to the distance of a ball from the groove centres.
-const ROUND_OFF: f64 = 16.0 * f64::EPSILON;
-
-/// Stiffness below which a direction counts as held by nothing, N/m; see `system::equilibrium`.
-const HELD: f64 = 0.1;
 
 /// Distance below which two equilibria are one, as a share of the distance of the groove centres.
 const SAME: f64 = 1e-6;
@@ -66,14 +45,6 @@ impl ShaftEquilibrium {
     }
 }
 
-/// Where a search ended.
-struct Found {
-    at: Five,
-    balance: Balance,
-    iterations: usize,
-    curvatures: Vec<f64>,
-}
-
 impl RigidShaft {
     /// The stable equilibrium to which the load leads from the undisplaced place.
     ///
@@ -83,29 +54,50 @@ impl RigidShaft {
     pub fn equilibrium(&self, load: &ShaftLoad) -> Result<ShaftEquilibrium, BearingError> {
         self.check(load)?;
         let start = self.start(Five::zeros());
-        let found = match self.search(start, load, true) {
+        let found = match self.descend(start, load, false) {
             Ok(found) => found,
             Err(failed) => self.in_load_steps(start, load).map_err(|_| failed)?,
         };
         self.result(&found)
     }
 
-    /// The equilibrium of [`Self::equilibrium`] first, then the other stable ones that are found from starts to several sides, then
-    /// the saddles between neighbours. Places along a direction that nothing holds count as one.
+    /// The equilibrium to which the load leads from a displacement nearby, so that it stays on one branch where there are several.
     ///
     /// # Errors
-    /// As [`Self::equilibrium`]; a start that leads nowhere is no error.
+    /// As [`Self::equilibrium`].
+    pub(crate) fn equilibrium_near(
+        &self,
+        load: &ShaftLoad,
+        near: &RingDisplacement,
+    ) -> Result<ShaftEquilibrium, BearingError> {
+        self.check(load)?;
+        let start = self.start(near.vector().component_div(&self.units()));
+        self.descend(start, load, true).and_then(|found| self.result(&found)).or_else(|_| self.equilibrium(load))
+    }
+
+    /// The equilibrium of [`Self::equilibrium`] first, then the other stable ones that are found from starts to several sides, then
+    /// the saddles between neighbours. Places along a direction
+    /// that nothing holds count as one.
+    ///
+    /// # Errors
+    /// As [`Self::equilibrium`], where no start leads to an equilibrium.
     pub fn find_all(&self, load: &ShaftLoad) -> Result<Vec<ShaftEquilibrium>, BearingError> {
-        let mut all = vec![self.equilibrium(load)?];
+        self.check(load)?;
+        let first = self.equilibrium(load);
+        let mut all: Vec<ShaftEquilibrium> = first.iter().cloned().collect();
         let distance = self.centre_distance();
         let along = load.force[1].atan2(load.force[0]);
         for step in 0..12 {
             let (sin, cos) = (along + TAU * f64::from(step) / 12.0).sin_cos();
             for axial in [-0.5, 0.0, 0.5] {
                 let aside = Five::from([0.05 * cos, 0.05 * sin, axial, 0.0, 0.0]) * distance;
-                self.keep(&mut all, self.search(self.start(aside), load, true));
+                self.keep(&mut all, self.descend(self.start(aside), load, false));
             }
         }
+        if all.is_empty() {
+            return first.map(|only| vec![only]);
+        }
+        all.sort_by_key(|rest| !rest.is_stable());
         let (sin, cos) = along.sin_cos();
         let across =
             |rest: &ShaftEquilibrium| rest.displacement.translation[1] * cos - rest.displacement.translation[0] * sin;
@@ -115,7 +107,7 @@ impl RigidShaft {
         let places: Vec<Five> = places.collect();
         for pair in places.windows(2) {
             let between = 0.5 * (pair[0] + pair[1]);
-            self.keep(&mut all, self.search(self.start(between), load, false));
+            self.keep(&mut all, self.next_in_balance(self.start(between), load));
         }
         Ok(all)
     }
@@ -144,11 +136,11 @@ impl RigidShaft {
     }
 
     /// Length that tilts are scaled by, m.
-    fn arm(&self) -> f64 {
+    pub(super) fn arm(&self) -> f64 {
         self.bearings[0].bearing.geometry().pitch_radius()
     }
 
-    fn centre_distance(&self) -> f64 {
+    pub(super) fn centre_distance(&self) -> f64 {
         self.bearings[0].bearing.law.grooves.centre_distance
     }
 
@@ -168,7 +160,7 @@ impl RigidShaft {
     }
 
     /// Balance in scaled coordinates.
-    fn scaled(&self, at: &Five, load: &ShaftLoad) -> Result<Balance, BearingError> {
+    pub(super) fn scaled(&self, at: &Five, load: &ShaftLoad) -> Result<Balance, BearingError> {
         let units = self.units();
         let Balance { gradient, stiffness, carried } =
             self.balance(&RingDisplacement::of(at.component_mul(&units)), load)?;
@@ -185,99 +177,11 @@ impl RigidShaft {
                 moment: load.moment.map(|moment| share * moment),
                 place: load.place,
             };
-            let next = self.search(at, &part, true)?;
+            let next = self.descend(at, &part, false)?;
             at = next.at;
             found = Some(next);
         }
         found.ok_or_else(|| BearingError("no share of the load was tried".to_owned()))
-    }
-
-    /// Walks downhill from a start to a minimum; or, not downhill, to the next place in balance, a saddle as well.
-    fn search(&self, start: Five, load: &ShaftLoad, downhill: bool) -> Result<Found, BearingError> {
-        let free: Vec<usize> = (0..5).filter(|&row| self.held[row].is_none()).collect();
-        let reach = self.centre_distance();
-        let arm = self.arm();
-        let mut at = start;
-        let mut balance = self.scaled(&at, load)?;
-        if free.is_empty() {
-            return Ok(Found { at, balance, iterations: 0, curvatures: Vec::new() });
-        }
-        let [fx, fy, fz] = load.force;
-        let [mx, my] = load.moment;
-        let applied = [fx, fy, fz, mx / arm, my / arm].into_iter().fold(0.0_f64, |most, part| most.max(part.abs()));
-        // what a bearing without any load is measured by
-        let ball_weight = 9.81 * self.bearings[0].bearing.geometry().ball_mass();
-        let (mut iterations, mut before) = (0, f64::INFINITY);
-        loop {
-            let gradient = DVector::from_fn(free.len(), |row, _| balance.gradient[free[row]]);
-            let stiffness = DMatrix::from_fn(free.len(), free.len(), |a, b| balance.stiffness[(free[a], free[b])]);
-            let eigen = ((&stiffness + stiffness.transpose()) * 0.5).symmetric_eigen();
-            let scale = applied.max(balance.carried).max(ball_weight);
-            let falling = -0.01 * scale / arm - HELD;
-            let softest = (0..free.len()).min_by(|&a, &b| eigen.eigenvalues[a].total_cmp(&eigen.eigenvalues[b]));
-            let saddle = softest.filter(|&index| downhill && eigen.eigenvalues[index] < falling);
-            let error = gradient.amax();
-            let round_off = ROUND_OFF * reach * stiffness.iter().fold(0.0_f64, |most, k| most.max(k.abs()));
-            let balanced =
-                error <= FORCE_TOLERANCE * scale || (error <= round_off && error > 0.5 * before) || error <= 0.0;
-            if balanced && saddle.is_none() {
-                return Ok(Found { at, balance, iterations, curvatures: eigen.eigenvalues.iter().copied().collect() });
-            }
-            if iterations == MAX_ITERATIONS || !error.is_finite() {
-                return Err(BearingError(format!(
-                    "the shaft finds no equilibrium: {error:.3e} N stay out of balance after {iterations} steps; \
-                     check that the bearings can carry the load in every direction"
-                )));
-            }
-            before = error;
-            let most = LONGEST_STEP[usize::from(iterations >= PATIENCE)] * reach;
-            let mut step = match (balanced, saddle) {
-                (true, Some(index)) => eigen.eigenvectors.column(index) * most,
-                _ => {
-                    let mut step = DVector::zeros(free.len());
-                    for (&curvature, direction) in eigen.eigenvalues.iter().zip(eigen.eigenvectors.column_iter()) {
-                        let size = curvature.abs().max(HELD);
-                        let along = direction.dot(&gradient) / if downhill { size } else { size.copysign(curvature) };
-                        step -= direction * along.clamp(-most, most);
-                    }
-                    // with inertia the stiffness is not symmetric: Newton's own step is the better one near the end
-                    let newton = stiffness.lu().solve(&gradient).map(|newton| -newton);
-                    newton.filter(|newton| newton.amax() < 1e-3 * most && saddle.is_none()).unwrap_or(step)
-                }
-            };
-            let slope = gradient.dot(&step).abs();
-            let mut tried = None;
-            for halving in 0..=HALVINGS {
-                let mut trial = at;
-                for (row, &place) in free.iter().enumerate() {
-                    trial[place] += step[row];
-                }
-                match self.scaled(&trial, load) {
-                    Ok(next) => {
-                        let overrun: f64 = free.iter().zip(step.iter()).map(|(&row, s)| next.gradient[row] * s).sum();
-                        let small = error <= round_off.max(1e3 * FORCE_TOLERANCE * scale);
-                        let closer = match downhill {
-                            true => overrun <= 0.5 * slope,
-                            false => {
-                                free.iter().map(|&row| next.gradient[row].powi(2)).sum::<f64>().sqrt() < gradient.norm()
-                            }
-                        };
-                        let done = closer || small || halving == HALVINGS;
-                        tried = Some((trial, next));
-                        if done {
-                            break;
-                        }
-                    }
-                    Err(failed) if halving == HALVINGS && tried.is_none() => return Err(failed),
-                    Err(_) => {}
-                }
-                step *= 0.5;
-            }
-            if let Some((next, next_balance)) = tried {
-                (at, balance) = (next, next_balance);
-            }
-            iterations += 1;
-        }
     }
 
     fn result(&self, found: &Found) -> Result<ShaftEquilibrium, BearingError> {
@@ -312,7 +216,7 @@ impl RigidShaft {
         }
         let free = |row: usize| self.held[row].is_none();
         let residual = (0..5).filter(|&row| free(row)).map(|row| found.balance.gradient[row].abs());
-        let held = found.curvatures.iter().copied().filter(|curvature| curvature.abs() > HELD);
+        let held = found.curvatures.iter().copied().filter(|curvature| curvature.abs() > found.held);
         Ok(ShaftEquilibrium {
             displacement,
             holding_load: std::array::from_fn(|row| if free(row) { 0.0 } else { gradient[row] }),
@@ -321,8 +225,8 @@ impl RigidShaft {
             iterations: found.iterations,
             residual_n: residual.fold(0.0, f64::max),
             least_stiffness: held.reduce(f64::min),
-            directions_down: found.curvatures.iter().filter(|&&curvature| curvature < -HELD).count(),
-            directions_loose: found.curvatures.iter().filter(|curvature| curvature.abs() <= HELD).count(),
+            directions_down: found.curvatures.iter().filter(|&&curvature| curvature < -found.held).count(),
+            directions_loose: found.curvatures.iter().filter(|curvature| curvature.abs() <= found.held).count(),
         })
     }
 }

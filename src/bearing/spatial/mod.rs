@@ -21,6 +21,7 @@ mod defect;
 mod equilibrium;
 mod groove;
 mod ring;
+mod search;
 mod shaft;
 #[cfg(test)]
 mod tests;

@@ -43,6 +43,7 @@ pub struct RigidShaft {
 }
 
 /// Gradient and stiffness over the shaft's displacement.
+#[derive(Clone)]
 pub(super) struct Balance {
     /// Load that the bearings carry less the load applied.
     pub gradient: Five,

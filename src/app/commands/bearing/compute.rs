@@ -13,13 +13,17 @@ use serde::Serialize;
 use std::f64::consts::TAU;
 
 /// Points of a curve.
-const POINTS: usize = 25;
+pub(super) const POINTS: usize = 25;
 
 /// Factors of the load from the first to the last point of the curve.
-const FACTORS: [f64; 2] = [0.1, 10.0];
+pub(super) const FACTORS: [f64; 2] = [0.1, 10.0];
 
 /// Preloads of the curve: from this share of its middle to this multiple.
 const PRELOADS: [f64; 2] = [0.1, 4.0];
+
+/// Contact pressure of the basic static load rating of ball bearings, Pa (ISO 76:2006, 3.2): a permanent deformation of 1e-4 of the
+/// ball's diameter.
+const STATIC_PRESSURE: f64 = 4.2e9;
 
 /// Result of the command.
 #[derive(Debug, Clone)]
@@ -90,8 +94,8 @@ pub fn compute_bearing(
     let geometry = scene.bearing.geometry();
     let contact_angle = mean_angle(balls);
     let diameters = [2.0 * geometry.ball_radius(), 2.0 * geometry.pitch_radius()];
-    let row = BallRow::new(geometry.balls(), diameters[0], diameters[1], contact_angle.abs())
-        .map_err(ComputeError::bearing("bearing: "))?;
+    let row =
+        BallRow::new(geometry.balls(), diameters[0], diameters[1], contact_angle.abs()).map_err(no_equilibrium)?;
     let mut result = BearingResult {
         speed_rpm: scene.speed * 60.0 / TAU,
         time_s: scene.time,
@@ -109,7 +113,8 @@ pub fn compute_bearing(
         equilibria,
     };
     watch.stage("curves");
-    result.over_load = curve(&geometric(FACTORS), |factor| {
+    let taken = result.equilibria[0].displacement;
+    result.over_load = curve(&geometric(FACTORS), POINTS / 2, taken, |factor| {
         let by = |part: f64| factor * part;
         Ok((scene.clone(), ShaftLoad { force: load.force.map(by), moment: load.moment.map(by), ..load }))
     })?;
@@ -117,8 +122,9 @@ pub fn compute_bearing(
     if scene.speed.abs() > 0.0 {
         let speeds: Vec<f64> =
             (0..POINTS).map(|point| 2.0 * result.speed_rpm * point as f64 / (POINTS - 1) as f64).collect();
-        result.over_speed =
-            curve(&speeds, |rpm| Ok((SpatialScene { speed: rpm * TAU / 60.0, ..scene.clone() }, load)))?;
+        result.over_speed = curve(&speeds, POINTS / 2, taken, |rpm| {
+            Ok((SpatialScene { speed: rpm * TAU / 60.0, ..scene.clone() }, load))
+        })?;
     }
     watch.fraction(2.0 / 3.0);
     let size = scene.load.force.iter().fold(0.0_f64, |most, part| most.max(part.abs()));
@@ -128,7 +134,13 @@ pub fn compute_bearing(
         None => (size, Preload::Force),
     };
     if middle > 0.0 {
-        result.over_preload = curve(&geometric(PRELOADS.map(|share| share * middle)), |preload| {
+        let preloads = geometric(PRELOADS.map(|share| share * middle));
+        // the result itself has the middle, or no preload
+        let first = match scene.preload {
+            Some(_) => preloads.partition_point(|preload| *preload < middle),
+            None => 0,
+        };
+        result.over_preload = curve(&preloads, first, taken, |preload| {
             let scene = SpatialScene { preload: Some(by(preload)), ..scene.clone() };
             let (_, load) = scene.shaft()?;
             Ok((scene, load))
@@ -168,28 +180,39 @@ fn no_equilibrium(error: BearingError) -> ComputeError {
 }
 
 /// Even steps of the logarithm.
-fn geometric([from, to]: [f64; 2]) -> Vec<f64> {
+pub(super) fn geometric([from, to]: [f64; 2]) -> Vec<f64> {
     let share = |point: usize| point as f64 / (POINTS - 1) as f64;
     (0..POINTS).map(|point| from * (to / from).powf(share(point))).collect()
 }
 
-fn curve(
+/// Follows one branch of equilibria to both sides from place `first`, which is near the displacement `start`.
+pub(super) fn curve(
     places: &[f64],
+    first: usize,
+    start: RingDisplacement,
     scene_at: impl Fn(f64) -> Result<(SpatialScene, ShaftLoad), ComputeError>,
 ) -> Result<Vec<CurvePoint>, ComputeError> {
-    let point = |&at: &f64| {
-        let (scene, load) = scene_at(at)?;
-        let (shaft, _) = scene.shaft()?;
-        // a point without equilibrium is a gap
-        let found = shaft.equilibrium(&load).ok();
-        let displacement = found.as_ref().map(|found| {
-            let ([x, y, z], [a, b]) = (found.displacement.translation, found.displacement.tilt);
-            [x, y, z, a, b]
-        });
-        let stiffness = found.map(|found| std::array::from_fn(|axis| found.stiffness[axis][axis]));
-        Ok(CurvePoint { at, displacement, stiffness })
+    let mut points: Vec<CurvePoint> =
+        places.iter().map(|&at| CurvePoint { at, displacement: None, stiffness: None }).collect();
+    let first = first.min(places.len());
+    let (before, after) = points.split_at_mut(first);
+    let follow = |points: &mut dyn Iterator<Item = &mut CurvePoint>| -> Result<(), ComputeError> {
+        let mut near = start;
+        for point in points {
+            let (scene, load) = scene_at(point.at)?;
+            let (shaft, _) = scene.shaft()?;
+            // a point without equilibrium is a gap
+            let Ok(found) = shaft.equilibrium_near(&load, &near) else { continue };
+            near = found.displacement;
+            let ([x, y, z], [a, b]) = (near.translation, near.tilt);
+            point.displacement = Some([x, y, z, a, b]);
+            point.stiffness = Some(std::array::from_fn(|axis| found.stiffness[axis][axis]));
+        }
+        Ok(())
     };
-    places.iter().map(point).collect()
+    follow(&mut after.iter_mut())?;
+    follow(&mut before.iter_mut().rev())?;
+    Ok(points)
 }
 
 /// Mean contact angle at the inner race, weighted by the loads; 0 without any.
@@ -201,7 +224,7 @@ fn mean_angle(balls: &[BallState]) -> f64 {
 }
 
 /// What of the case does not count here, and what of the result is to be looked at.
-fn doubts(
+pub(super) fn doubts(
     case: &Case,
     asked: &crate::app::case::Bearing,
     scene: &SpatialScene,
@@ -239,6 +262,15 @@ fn doubts(
     if others > 0 {
         let others = if others == 1 { "another stable equilibrium" } else { "other stable equilibria" };
         doubts.push(format!("the load has {others}: the table shows all that were found"));
+    }
+    let patches = taken.bearings.iter().flat_map(|state| &state.balls).flat_map(|ball| &ball.patch);
+    let pressure = patches.map(|patch| patch.peak_pressure).fold(0.0, f64::max);
+    if pressure > STATIC_PRESSURE {
+        doubts.push(format!(
+            "the largest contact pressure is {:.0} MPa; above {:.0} MPa, the static limit of ISO 76, races are dented for good: reduce the load",
+            1e-6 * pressure,
+            1e-6 * STATIC_PRESSURE
+        ));
     }
     let balls = taken.bearings.iter().flat_map(|state| &state.balls);
     let wrong_side = balls.filter(|ball| {

@@ -1,9 +1,11 @@
 //! The command from a case to its result and page.
 
-use super::compute::{BearingResult, compute_bearing};
+use super::compute::{BearingResult, FACTORS, POINTS, compute_bearing, curve, doubts, geometric};
 use super::report::bearing_report;
 use crate::app::case::{Case, Source};
 use crate::app::error::ComputeError;
+use crate::app::scene::spatial::SpatialScene;
+use crate::bearing::spatial::{ShaftEquilibrium, ShaftLoad};
 use crate::numerics::Unwatched;
 use approx::assert_relative_eq;
 
@@ -93,8 +95,12 @@ fn tight(load: f64) -> (Case, Result<BearingResult, ComputeError>) {
 /// Balls opposite the load would have to stand on the far side of their grooves.
 #[test]
 fn a_contact_beyond_ninety_degrees_is_no_result() {
-    let error = tight(8000.0).1.unwrap_err().to_string();
-    assert!(error.contains("expected less than 90: no groove reaches so far"), "{error}");
+    let error = tight(8000.0).1.unwrap_err();
+    // nothing is wrong with a key: it was computed
+    assert!(
+        !error.is_input() && error.to_string().contains("expected less than 90: no groove reaches so far"),
+        "{error}"
+    );
 }
 
 /// Plots without points are left out of the page of a bearing that nothing loads.
@@ -103,4 +109,88 @@ fn a_bearing_without_load_has_a_page() {
     let (case, result) = tight(0.0);
     let page = bearing_report(&case, &result.unwrap(), "plummer bearing case.toml").to_html().unwrap();
     assert!(page.contains("Ball loads") && !page.contains("Contact angles"));
+}
+
+/// A 6204 that a mass of so many kg loads, ball 0 under the load.
+fn light(mass: f64, set: &[&str]) -> Case {
+    let text = format!("bearing = \"6204\"\n[shaft]\nmass = {mass}\n");
+    let set = set.iter().map(|&set| set.to_owned()).collect();
+    Case::from_source(Source { path: "case.toml".into(), text, set }).unwrap()
+}
+
+fn rest(case: &Case) -> ShaftEquilibrium {
+    let (shaft, load) = SpatialScene::build(case, None, false).unwrap().shaft().unwrap();
+    shaft.equilibrium(&load).unwrap()
+}
+
+/// Between its mirror images in x and in z the shaft stands on a saddle. It rests beside it, where a second ball just touches.
+#[test]
+fn a_light_radial_load_has_a_stable_equilibrium() {
+    let found = rest(&light(1.0, &[]));
+    assert!(found.is_stable() && found.residual_n < 1e-9, "{found:?}");
+    let [x, y, z] = found.displacement.translation.map(|part| 1e6 * part);
+    assert_relative_eq!(x.abs(), 1.487, epsilon = 5e-4);
+    assert_relative_eq!(y, -7.426, epsilon = 5e-4);
+    assert_relative_eq!(z.abs(), 51.55, epsilon = 5e-3);
+}
+
+/// Curves over the load have every point, and no jump to a mirror image.
+#[test]
+fn curves_follow_one_branch() {
+    let case = light(1.0, &[]);
+    let scene = SpatialScene::build(&case, None, false).unwrap();
+    let (_, load) = scene.shaft().unwrap();
+    let points = curve(&geometric(FACTORS), POINTS / 2, rest(&case).displacement, |factor| {
+        Ok((scene.clone(), ShaftLoad { force: load.force.map(|part| factor * part), ..load }))
+    });
+    let points = points.unwrap();
+    for axis in [0, 2] {
+        let along: Option<Vec<f64>> = points.iter().map(|point| Some(point.displacement?[axis])).collect();
+        let along = along.unwrap_or_else(|| panic!("a gap in {points:?}"));
+        // heavy loads leave x = 0 as the only place
+        assert!(along.iter().all(|place| place * along[12].signum() > -1e-12), "axis {axis}: {along:?}");
+    }
+}
+
+/// Light thrust holds the bearing's sphere little, but it does hold it.
+#[test]
+fn light_thrust_holds_every_direction() {
+    for thrust in ["1e-2", "1e-4", "1e-6"] {
+        let thrust = format!("shaft.loads=[{{force=[0,0,{thrust}]}}]");
+        let found = rest(&light(1.0, &["shaft.gravity=[0,0]", &thrust]));
+        assert_eq!(found.directions_loose, 0, "{thrust}: {found:?}");
+    }
+    // without any load nothing is held
+    assert_eq!(rest(&light(1.0, &["shaft.gravity=[0,0]"])).directions_loose, 5);
+}
+
+#[test]
+fn pressures_above_the_static_limit_are_told() {
+    let told = |thrust: &str| {
+        let load = format!("shaft.loads=[{{force=[0,0,{thrust}]}}]");
+        let case = light(1.0, &["shaft.gravity=[0,0]", &load]);
+        let scene = SpatialScene::build(&case, None, true).unwrap();
+        let (shaft, load) = scene.shaft().unwrap();
+        let found = shaft.equilibrium(&load).unwrap();
+        let balls = &found.bearings[0].balls;
+        let most = balls.iter().flat_map(|ball| ball.patch).map(|patch| patch.peak_pressure).fold(0.0, f64::max);
+        let (asked, _) = case.for_bearing().unwrap();
+        let doubts = doubts(&case, asked, &scene, &[found]);
+        (most, doubts.iter().any(|doubt| doubt.contains("above 4200 MPa, the static limit of ISO 76")))
+    };
+    let [(low, quiet), (high, warned)] = [told("1e3"), told("1e5")];
+    assert!(low < 4.2e9 && !quiet && high > 4.2e9 && warned, "{low:e} {high:e}");
+}
+
+/// Fast and light: inertia presses the balls to where the inner race has no place for them.
+#[test]
+fn a_ball_without_a_place_is_named() {
+    let text = "[bearing]\nballs = 9\nball_radius = 3.5e-3\ninner_race_radius = 15.5e-3\n\
+        outer_race_radius = 22.51e-3\ninner_groove_radius = 3.535e-3\nouter_groove_radius = 3.535e-3\nradial_play = 2e-5\n\
+        [shaft]\nmass = 1\ngravity = [0, 0]\nloads = [{ force = [0, 0, 100] }]\n";
+    let source = Source { path: "case.toml".into(), text: text.to_owned(), set: Vec::new() };
+    let case = Case::from_source(source).unwrap();
+    let (shaft, load) = SpatialScene::build(&case, Some(1e5), true).unwrap().shaft().unwrap();
+    let said = shaft.equilibrium(&load).unwrap_err().to_string();
+    assert!(said.contains("at 100000 rpm the ball at ") && said.contains("lower the speed"), "{said}");
 }
