@@ -239,7 +239,8 @@ fn keys_of_the_bearing_in_space_are_read() {
     assert_eq!(loads[1], Load::Constant([5.0, 6.0]));
     // what case results echo is read again
     let echo = serde_json::to_value(&case).unwrap();
-    assert_eq!(echo["shaft"]["loads"][0], serde_json::json!({ "force": [1.0, -2.0, 30.0], "moment": [0.1, 0.0] }));
+    let load = serde_json::json!({ "force": [1.0, -2.0, 30.0], "moment": [0.1, 0.0], "at": 0.0 });
+    assert_eq!(echo["shaft"]["loads"][0], load);
     assert_eq!(echo["bearing"]["preload"], serde_json::json!({ "force": 40.0 }));
     let both = read(SPATIAL, &["bearing.thrust=both", "shaft.loads[0].force=[1,-2,0]", "shaft.loads[0].moment=[0,0]"]);
     let both = both.unwrap();
@@ -297,27 +298,27 @@ fn keys_of_the_bearing_in_space_that_are_wrong_are_named() {
 fn the_plane_model_refuses_keys_of_the_bearing_in_space() {
     use crate::app::case::{Case, Purpose};
     let case = |set: &[&str]| Case::example("scenes/smooth", set);
-    let all = [Purpose::Modes, Purpose::Condense, Purpose::Frf, Purpose::Run, Purpose::Chart];
     for (set, key) in [
         ("bearing.thrust=positive", "bearing.thrust"),
         ("bearing.race_control=shared", "bearing.race_control"),
         ("bearing.preload={displacement=1e-6}", "bearing.preload"),
         ("shaft.loads=[{force=[0,1]},{force=[0,0,1]}]", "shaft.loads[1]"),
         ("shaft.loads=[{force=[0,0],moment=[0,1]}]", "shaft.loads[0]"),
+        ("shaft.loads=[{force=[0,1],at=1e-3}]", "shaft.loads[0]"),
+        ("shaft.centre=1e-3", "shaft.centre"),
     ] {
         let case = case(&[set, "bearing.radial_play=1e-6"]);
-        for purpose in all {
-            let error = case.ready_for(purpose).unwrap_err();
-            assert!(error.to_string().starts_with(&format!("--set {set}: `{key}`: found ")), "{purpose:?} {error}");
-            assert!(error.help().unwrap().ends_with("or use `plummer bearing`, which knows it"));
-        }
+        let error = case.ready_for(Purpose::Chart).unwrap_err();
+        assert!(error.to_string().starts_with(&format!("--set {set}: `{key}`: found ")), "{error}");
+        assert!(error.help().unwrap().ends_with("or use `plummer run` or `plummer bearing`, which know it"));
         assert!(case.for_run().is_err());
         case.ready_for(Purpose::Bearing).unwrap();
+        // a run takes them, if it knows how hard the shaft is to tilt
+        let error = case.ready_for(Purpose::Run).unwrap_err();
+        assert!(error.to_string().contains("shaft.transverse_inertia: found none, expected one, since `"), "{error}");
     }
     let plane = ["bearing.thrust=both", "bearing.race_control=outer", "shaft.loads=[{force=[0,1,0]}]"];
     case(&plane).ready_for(Purpose::Run).unwrap();
-    let error = read(SPATIAL, &["bearing.contact_angle_deg=20"]).unwrap().ready_for(Purpose::Modes).unwrap_err();
-    assert!(error.to_string().contains("`bearing.contact_angle_deg`: found a key of the bearing in space"), "{error}");
     let alone = SPATIAL
         .replace("contact_angle_deg = 25\npreload = { force = 40 }\n", "")
         .replace(", 30], moment = [0.1, 0]", "]");
