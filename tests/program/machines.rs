@@ -17,8 +17,10 @@ fn load(name: &str, set: &[&str]) -> Result<Case, String> {
 
 const SPINDLE: &str = "machines/spindle.toml";
 
+/// Of a short run; keys come last that say otherwise.
 fn run(set: &[&str]) -> RunResult {
-    compute_run(&load(SPINDLE, set).unwrap(), &Unwatched).unwrap()
+    let set = [&["analysis.envelope=[]"], set].concat();
+    compute_run(&load(SPINDLE, &set).unwrap(), &Unwatched).unwrap()
 }
 
 fn refusal(name: &str, set: &[&str]) -> String {
@@ -124,7 +126,7 @@ fn a_turning_shaft_has_forward_and_backward_modes() {
 fn what_a_shaft_in_space_cannot_have_is_refused_with_its_key() {
     let without = "shaft={mass=0.05}";
     assert!(refusal(SPINDLE, &[without]).contains("shaft.transverse_inertia: found none"));
-    let off = "bearings.1.ring.tie.centre=[1e-4,0,27.5e-3]";
+    let off = "bearings.1.ring.tie.centre=[1e-6,0,27.5e-3]";
     assert!(refusal(SPINDLE, &[off]).contains("bearings[1].ring.tie.centre"), "{}", refusal(SPINDLE, &[off]));
     let turned = "bearings.1.ring.tie.zero_deg=[0,1,0]";
     assert!(refusal(SPINDLE, &[turned]).contains("bearings[1].ring.tie.zero_deg"));

@@ -108,7 +108,7 @@ impl SpatialEquilibrium {
         setup: &SpatialSetup,
         condition: &SpatialCondition,
     ) -> Result<Self, SystemError> {
-        Self::by(structure, setup, condition, |loads| structure.static_response(loads))
+        Self::by(structure, setup, condition, 0.0, |loads| structure.static_response(loads))
     }
 
     /// The same of a structure that gives way in these modes alone: where a system of these modes rests.
@@ -122,7 +122,7 @@ impl SpatialEquilibrium {
         condition: &SpatialCondition,
     ) -> Result<Self, SystemError> {
         let shapes = &modes.shapes;
-        Self::by(structure, setup, condition, |loads| {
+        Self::by(structure, setup, condition, LEAST_FLEXIBILITY, |loads| {
             let mut amplitudes = shapes.transpose() * loads;
             for column in 0..amplitudes.ncols() {
                 for (amplitude, square) in
@@ -139,9 +139,10 @@ impl SpatialEquilibrium {
         structure: &Structure,
         setup: &SpatialSetup,
         condition: &SpatialCondition,
+        least: f64,
         response: impl Fn(&DenseMatrix) -> Result<DenseMatrix, SystemError>,
     ) -> Result<Self, SystemError> {
-        let (mut problem, loads, flexibility) = Problem::new(structure, setup, condition, response)?;
+        let (mut problem, loads, flexibility) = Problem::new(structure, setup, condition, least, response)?;
         let mut found = problem.search(problem.start(&flexibility), true)?;
         let mut iterations = found.iterations;
         for _ in 0..ROUNDS {
@@ -164,6 +165,7 @@ impl<'a> Problem<'a> {
         structure: &Structure,
         setup: &'a SpatialSetup,
         condition: &'a SpatialCondition,
+        least: f64,
         response: impl Fn(&DenseMatrix) -> Result<DenseMatrix, SystemError>,
     ) -> Result<(Self, DenseMatrix, DMatrix<f64>), SystemError> {
         let mut balls = Vec::new();
@@ -194,7 +196,7 @@ impl<'a> Problem<'a> {
         let responses = response(&loads)?;
         let at_grooves = loads.subcols(0, 2 * count).transpose() * &responses;
         let largest = (0..2 * count).map(|k| at_grooves[(k, k)]).fold(0.0, f64::max);
-        let least = LEAST_FLEXIBILITY * largest;
+        let least = least * largest;
         let flexibility = DMatrix::from_fn(2 * count, 2 * count, |i, j| {
             0.5 * (at_grooves[(i, j)] + at_grooves[(j, i)]) + if i == j { least } else { 0.0 }
         });

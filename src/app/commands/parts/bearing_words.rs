@@ -123,7 +123,8 @@ fn fault(defect: &Defect) -> String {
             let mut sizes = vec![format!("{} long", length(dent.length))];
             sizes.extend(dent.width.map(|width| format!("{} wide", length(width))));
             sizes.push(format!("{} deep", length(dent.depth)));
-            format!("a dent {} {}", and(&sizes), place(dent.on, dent.angle_deg))
+            let across = dent.across.map(|across| format!(", {} across the groove", length(across)));
+            format!("a dent {} {}{}", and(&sizes), place(dent.on, dent.angle_deg), across.unwrap_or_default())
         }
         Defect::Measured(measured) => {
             let file = measured.profile.csv.file_name().unwrap_or_default().to_string_lossy().into_owned();

@@ -8,12 +8,13 @@ const ENDINGS: [(&str, &str); 4] = [("_radius", "m"), ("hz", "Hz"), ("rpm", "rpm
 
 /// Keys with a unit, by the last name on their path. Springs of housings are left out: theirs depends on what they are per.
 #[rustfmt::skip]
-const NAMES: [(&str, &[&str]); 14] = [
-    ("m", &["amplitude", "ball_radius_differences", "centre", "depth", "displacement", "length", "offset", "point", "points_within",
+const NAMES: [(&str, &[&str]); 15] = [
+    ("m", &["across", "amplitude", "at", "ball_radius_differences", "centre", "depth", "displacement", "length", "offset", "point", "points_within",
             "radial_play", "radius", "thickness", "width"]),
     ("s", &["beta", "end", "from", "start", "step", "time", "to"]),
     ("kg", &["ball_mass", "mass"]),
     ("kg*m", &["unbalance"]),
+    ("kg m^2", &["polar_inertia", "transverse_inertia"]),
     ("kg/m^3", &["density"]),
     ("Pa", &["shear", "young"]),
     ("m^2", &["area"]),
@@ -133,6 +134,9 @@ pub(super) fn unit_of(key: &str) -> &'static str {
     let name = name.unwrap_or_default();
     if key.starts_with("ring.supports") && matches!(name, "x" | "y" | "z") {
         return "N/m";
+    }
+    if key.starts_with("shaft.unbalances") && name == "moment" {
+        return "kg*m";
     }
     let by_name = NAMES.iter().find(|(_, names)| names.contains(&name));
     let by_name = by_name.map(|(unit, _)| *unit);
