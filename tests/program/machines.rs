@@ -52,18 +52,24 @@ fn the_plane_is_chosen_where_it_is_enough() {
     assert!(reason(&[inertia, "shaft.centre=1e-3"]).starts_with("`shaft.centre`"));
 }
 
-/// Steps add or take no energy beyond what their tolerance lets pass: thrust, preload, moment and unbalance do their work.
+/// Thrust, preload, moment, unbalance and a dent do their work, and steps add none.
 #[test]
 fn energy_adds_up_in_two_bearings() {
-    let keys =
-        ["transient.end=4e-3", "transient.modes=60", "analysis.energy=true", "transient.method=exponential-adams"];
-    let set = [&keys[..], &["transient.tolerance=1e-7"]].concat();
-    let result = run(&set);
+    let keys = [
+        "transient.end=4e-3",
+        "transient.modes=60",
+        "analysis.energy=true",
+        "transient.method=exponential-adams",
+        "transient.tolerance=1e-7",
+        "transient.step=2.5e-8",
+    ];
+    let result = run(&keys);
     assert!(matches!(result.simulation.end, RunEnd::Complete));
     let energy = result.simulation.energy.unwrap();
     println!("{:e} of {:e} J", energy.error(), energy.exchanged_j);
-    // as in the plane
-    assert!(energy.error().abs() < 1e-6, "{:e}", energy.error());
+    // 1.6e-6, and 3.4e-5 in twice the step, where the loads' work is the same to ten digits: the sum of powers over the steps errs where a
+    // ball enters the dent
+    assert!(energy.error().abs() < 1e-5, "{:e}", energy.error());
 }
 
 /// The shaft of the run rests where it starts: without speed and unbalance nothing moves.
