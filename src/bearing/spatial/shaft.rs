@@ -78,7 +78,7 @@ impl RigidShaft {
     /// more) in its own direction.
     ///
     /// # Errors
-    /// [`BearingError`]: bearings that do not thrust against each other; and as [`SpatialBearing::axial_displacement`].
+    /// [`BearingError`]: bearings that do not thrust against each other; a force that no displacement below the grooves' radii carries.
     pub fn preloaded(mut self, force: f64) -> Result<Self, BearingError> {
         let sum: f64 = self.bearings.iter().map(|mounted| mounted.bearing.thrust().sign()).sum();
         if sum.abs() > 0.5 {
