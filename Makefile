@@ -5,10 +5,11 @@ CASE := examples/tadina2011/outer-dent.toml
 WINDOWS := analysis.envelope=[{from=1.0,to=2.6},{from=2.3,to=2.4}]
 REPORT := out/outer-dent/report.html
 MDBOOK := $(firstword $(wildcard target/tools/bin/mdbook) mdbook)
-.PHONY: help setup demo test nightly figures meshes book docs bench bench-peers clean
+.PHONY: help setup demo machines test nightly figures meshes book docs bench bench-peers clean
 
 help:
 	@echo "make demo    build, run the dented bearing and say where its report is"
+	@echo "make machines  a spindle and a motor in two bearings each, from their .geo to the verdict (needs gmsh)"
 	@echo "make test    all tests, documentation tests and examples"
 	@echo "make nightly  the tests that take hours, and the readers under libFuzzer"
 	@echo "make setup   install the system libraries that are missing"
@@ -26,6 +27,12 @@ setup:
 demo: setup
 	cargo run --release -- run $(CASE) --set '$(WINDOWS)'
 	@test -f $(REPORT) && echo "The report: $(CURDIR)/$(REPORT)"
+
+machines: setup
+	@command -v gmsh >/dev/null 2>&1 || { echo "gmsh is missing: see https://gmsh.info" >&2; exit 1; }
+	sh meshes/rebuild.sh spindle_block motor
+	cargo run --release -- run examples/machines/spindle.toml
+	cargo run --release -- run examples/machines/motor.toml
 
 # cargo-nextest where it is installed; it leaves out documentation tests. The profile `release` takes over what `make demo` has built, `ci` checks
 # sums for overflow too.

@@ -1,7 +1,8 @@
 #!/bin/sh
-# Makes every mesh of this folder from its .geo (gmsh 4.8 or later); `make meshes` calls it.
+# Makes every mesh of this folder from its .geo, or those that are named (gmsh 4.8 or later); `make meshes` calls it.
 set -eu
 cd "$(dirname "$0")"
-for geo in *.geo; do
-    gmsh -3 -v 2 -format msh41 -o "${geo%.geo}.msh" "$geo"
+[ $# -gt 0 ] || set -- $(ls *.geo | sed 's/\.geo$//')
+for name in "$@"; do
+    gmsh -3 -v 2 -format msh41 -o "$name.msh" "$name.geo"
 done
