@@ -84,7 +84,7 @@ impl SecondOrderSystem for SpatialSystem {
         }
     }
 
-    /// By differences, column by column: for limits of steps and for implicit methods, which take no time to speak of from it.
+    /// By differences, with four evaluations a coordinate: enough for limits of steps, slow for implicit methods.
     fn tangent_into(&mut self, t: f64, y: &[f64], v: &[f64], tangent: &mut Tangent) {
         let [by_place, by_speed] = self.derivatives(t, y, v);
         for (columns, of_speed) in [(by_place, false), (by_speed, true)] {

@@ -5,6 +5,7 @@
 use super::{AnalyzeArguments, GivenSpeed};
 use crate::app::case::{Case, bearing_help};
 use crate::app::cli::{CliError, Options};
+use crate::app::commands::analyze::DamageShown;
 use crate::app::error::ComputeError;
 use crate::app::scene::{bearing_geometry, bearing_setup};
 use crate::bearing::catalogue::CatalogueBearing;
@@ -33,7 +34,7 @@ pub(super) struct Machine {
     /// Whether what a file states of its speed goes before what was typed.
     pub(super) own_first: bool,
     /// The bearing of a run in space that is asked for: its label, and what its damage adds to the signals.
-    pub(super) of_run: Option<(String, f64)>,
+    pub(super) of_run: Option<(String, DamageShown)>,
 }
 
 impl Machine {
@@ -199,7 +200,7 @@ fn bearing_of_run(asked: &AnalyzeArguments, case: &Case) -> Result<Option<String
 }
 
 /// The orders of a bearing that the results of a run say, and what its damage adds to the signals.
-fn bearing_of_results(folder: &Path, label: &str) -> Result<(DefectOrders, f64), CliError> {
+fn bearing_of_results(folder: &Path, label: &str) -> Result<(DefectOrders, DamageShown), CliError> {
     #[derive(serde::Deserialize)]
     struct Orders {
         cage: f64,
@@ -211,7 +212,7 @@ fn bearing_of_results(folder: &Path, label: &str) -> Result<(DefectOrders, f64),
     struct OfBearing {
         label: String,
         defect_orders: Orders,
-        damage_share: f64,
+        damage_share: Option<f64>,
     }
     #[derive(serde::Deserialize)]
     struct Results {
@@ -227,7 +228,10 @@ fn bearing_of_results(folder: &Path, label: &str) -> Result<(DefectOrders, f64),
         let what = format!("{}: found no bearing \"{label}\", expected the orders of one", path.display());
         return Err(CliError::input(what).with_help("compute the run anew"));
     };
-    Ok((DefectOrders { cage, outer, inner, ball_spin: 0.5 * ball, ball_defect: ball }, damage_share))
+    Ok((
+        DefectOrders { cage, outer, inner, ball_spin: 0.5 * ball, ball_defect: ball },
+        DamageShown::in_space(damage_share),
+    ))
 }
 
 /// A case whose bearing stays in its plane, as orders at no contact angle do.

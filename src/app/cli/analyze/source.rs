@@ -8,7 +8,9 @@ use crate::app::case::{Case, EnvelopeBand, Purpose, ReportDetails};
 use crate::app::cli::earlier_results::{Wanted, case_of_results};
 use crate::app::cli::output::extend_new;
 use crate::app::cli::{CliError, Options};
-use crate::app::commands::analyze::{AnalysisSettings, AskedBand, OrdersSummary, WindowAnalysis, compute_analysis};
+use crate::app::commands::analyze::{
+    AnalysisSettings, AskedBand, DamageShown, OrdersSummary, WindowAnalysis, compute_analysis,
+};
 use crate::app::commands::parts;
 use crate::app::error::ComputeError;
 use crate::formats::{MeasuredError, MeasuredSignal, SignalRequest, read_signals};
@@ -277,10 +279,10 @@ fn flaws_of(name: &str, series: &TimeSeries) -> Vec<String> {
 /// Filter and windows: what was typed, else what the run's case says.
 fn settings(asked: &AnalyzeArguments, case: Option<&Case>, machine: &Machine) -> AnalysisSettings {
     let of_case = |case: &Case| match &machine.of_run {
-        None => AnalysisSettings::of(case, case.bearing.as_ref(), None),
+        None => AnalysisSettings::of(case, case.bearing.as_ref(), DamageShown::InPlane),
         Some((label, damage)) => {
             let own = case.seats().into_iter().find(|seat| seat.label == *label);
-            AnalysisSettings::of(case, own.and_then(|seat| seat.bearing), Some(*damage))
+            AnalysisSettings::of(case, own.and_then(|seat| seat.bearing), *damage)
         }
     };
     let mut settings = case.map(of_case).unwrap_or_default();

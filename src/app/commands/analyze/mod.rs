@@ -19,4 +19,5 @@ pub(crate) use report::{analysis_report, verdict_lines};
 pub use summary::{AnalysisResult, FailureSummary, InputSummary, OrdersSummary, SurveyResult, WindowOfInput};
 pub use table::{AnalysisRow, SHOWN_WINDOWS};
 pub(crate) use table::{analysis_table, input_section, survey_report, survey_section, verdicts_table};
+pub(crate) use window::DamageShown;
 pub use window::{AnalysisSettings, WindowAnalysis, WindowChange, analyse, compute_analysis};

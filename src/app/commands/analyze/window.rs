@@ -52,16 +52,16 @@ pub struct AnalysisSettings {
 }
 
 impl AnalysisSettings {
-    /// What a case asks for, of one of its bearings; `share` is what a run showed of its damage, as [`no_signs`] takes it.
+    /// What a case asks for, of one of its bearings; `shown` is what a run showed of its damage.
     #[must_use]
-    pub(crate) fn of(case: &Case, bearing: Option<&Bearing>, share: Option<f64>) -> Self {
+    pub(crate) fn of(case: &Case, bearing: Option<&Bearing>, shown: DamageShown) -> Self {
         Self {
             band: AskedBand::of(case),
             shown_band: None,
             whiten: case.analysis.whiten,
             windows: case.analysis.envelope.clone(),
             good_to_hz: good_to_hz(case),
-            no_signs: no_signs(case, bearing, share),
+            no_signs: no_signs(case, bearing, shown),
         }
     }
 
@@ -449,16 +449,34 @@ const STRIKING_LOAD: f64 = 7500.0;
 /// m/s^2
 const STANDARD_GRAVITY: f64 = 9.80665;
 
+/// What is known of the part that the damage of a simulated bearing has in the signals.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) enum DamageShown {
+    /// The bearing stays in its plane: play and load say whether its lines are a sign.
+    InPlane,
+    /// In space; no stretch without the damage was stepped beside one with it.
+    NotCompared,
+    /// In space; what the damage adds to a stretch, over the RMS without it, the largest sensor's.
+    Share(f64),
+}
+
+impl DamageShown {
+    /// Of a bearing in space, by its share if a stretch was compared.
+    pub(crate) fn in_space(share: Option<f64>) -> Self {
+        share.map_or(Self::NotCompared, Self::Share)
+    }
+}
+
 /// What damage has to add to a signal to be what its lines come from, over the signal without it.
 const DAMAGE_SHOWS: f64 = 1.0;
 
 /// Why lines of a part are no sign of damage in a simulated bearing: the case has no damage there, the load is too large to tell, or a
-/// stretch with and without the damage differs by too small a `share` of the RMS without it; `None` where no stretch was compared.
-pub(crate) fn no_signs(case: &Case, bearing: Option<&Bearing>, share: Option<f64>) -> Vec<(Fault, bool, String)> {
+/// stretch with and without the damage differs by too little, or was not compared.
+pub(crate) fn no_signs(case: &Case, bearing: Option<&Bearing>, shown: DamageShown) -> Vec<(Fault, bool, String)> {
     let Some(bearing) = bearing else {
         return Vec::new();
     };
-    let has_play = bearing.play() > 0.0 && share.is_none();
+    let has_play = bearing.play() > 0.0 && shown == DamageShown::InPlane;
     let play = has_play.then(|| format!("the play is {} µm", significant(1e6 * bearing.play(), 2)));
     let damaged = bearing.defects.iter().map(|defect| match defect {
         Defect::Dent(DentDefect { on, .. }) | Defect::Measured(MeasuredDefect { on, .. }) => match on {
@@ -473,13 +491,15 @@ pub(crate) fn no_signs(case: &Case, bearing: Option<&Bearing>, share: Option<f64
         let reason = match (damaged.contains(&fault), play) {
             (false, Some(play)) => format!("The case has no damage there, and {play}."),
             (false, None) => "The case has no damage there.".to_owned(),
-            (true, _) if share.is_some() => {
-                let share = share.filter(|share| *share < DAMAGE_SHOWS)?;
-                format!(
+            (true, _) if shown != DamageShown::InPlane => match shown {
+                DamageShown::Share(share) if share >= DAMAGE_SHOWS => return None,
+                DamageShown::Share(share) => format!(
                     "A sound bearing has such lines too: without the damage a stretch of the run differs by {} of its RMS at most.",
                     significant(share, 2)
-                )
-            }
+                ),
+                _ => "A sound bearing has such lines too, and no stretch of the run could be compared with one without the damage."
+                    .to_owned(),
+            },
             (true, play) => {
                 let (play, weights) = (play?, ball_weights(case, bearing).filter(|weights| *weights >= STRIKING_LOAD)?);
                 format!(

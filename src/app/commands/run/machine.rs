@@ -1,6 +1,7 @@
 //! What a run simulated: one bearing in its plane, or a shaft in bearings in space.
 
 use crate::app::case::SpatialCase;
+use crate::app::commands::analyze::DamageShown;
 use crate::app::scene::{CoupledStructure, MachineScene, Scene};
 use crate::bearing::kinematics::DefectOrders;
 use crate::bearing::{Cage, SpeedProfile};
@@ -37,8 +38,8 @@ pub struct SpatialMachine {
     /// Modes linearised where it rests.
     pub loaded: LoadedModes,
     /// Of each bearing what its damage adds to a stretch of the signals, over the RMS without it, the largest sensor's; zero of a sound
-    /// bearing, and of one whose stretch cannot be stepped.
-    pub damage: Vec<f64>,
+    /// bearing, `None` where no stretch could be compared.
+    pub damage: Vec<Option<f64>>,
 }
 
 /// Which model of the bearing a run has, and why.
@@ -59,8 +60,8 @@ pub(crate) struct BearingMotion<'a> {
     pub balls: u32,
     /// Orders without slip.
     pub orders: DefectOrders,
-    /// What its damage adds to the signals, over those without it; `None` in the plane, where this is not looked at.
-    pub damage: Option<f64>,
+    /// What of its damage the signals show.
+    pub damage: DamageShown,
 }
 
 impl BearingModel {
@@ -130,14 +131,20 @@ impl Machine {
             Self::InPlane(machine) => {
                 let setup = &machine.scene.setup;
                 let (balls, orders) = (setup.geometry.balls(), setup.geometry.orders());
-                vec![BearingMotion { label: "", cage: &setup.cage, balls, orders, damage: None }]
+                vec![BearingMotion { label: "", cage: &setup.cage, balls, orders, damage: DamageShown::InPlane }]
             }
             Self::InSpace(machine) => {
                 let scene = &machine.scene;
                 let bearings = scene.setup.bearings.iter().zip(&scene.orders).zip(&machine.damage);
                 let bearings = bearings.map(|((own, orders), damage)| {
                     let balls = own.bearing.geometry().balls();
-                    BearingMotion { label: &own.label, cage: &own.cage, balls, orders: *orders, damage: Some(*damage) }
+                    BearingMotion {
+                        label: &own.label,
+                        cage: &own.cage,
+                        balls,
+                        orders: *orders,
+                        damage: DamageShown::in_space(*damage),
+                    }
                 });
                 bearings.collect()
             }

@@ -2,6 +2,7 @@
 //!
 //! A case comes in; a [`RunResult`] goes out, whose signals are in memory or, as a run that can stop and go on has them, on disk.
 //! Read `compute.rs` first: it takes the scene, has `choice` choose the model, steps it by `simulation.rs` and analyses the signals.
+//! `machine.rs` is what was simulated: one bearing in its plane, or a shaft in several.
 //! `recording.rs` has what keeps rows and checkpoints, `unfinished` the files of a run that has not ended. `summary.rs` is `run.json`,
 //! `report.rs` the page.
 

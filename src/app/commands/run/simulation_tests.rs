@@ -3,7 +3,7 @@
 use super::unfinished::{RunIdentity, UnfinishedRun};
 use super::*;
 use crate::app::case::Case;
-use crate::app::commands::analyze::{AnalysisSettings, WindowAnalysis, analyse};
+use crate::app::commands::analyze::{AnalysisSettings, DamageShown, WindowAnalysis, analyse};
 use crate::app::commands::run::choice::ModelChoice;
 use crate::app::error::ComputeError;
 use crate::app::scene::{Scene, bearing_setup};
@@ -256,7 +256,7 @@ fn an_envelope_of_a_stretch_is_that_of_the_whole_signal() {
     });
     let simulation = with_signal(values.collect());
     let analysed = |read: &dyn Fn(TimeWindow, f64) -> Result<TimeSeries, ComputeError>| {
-        let settings = AnalysisSettings::of(&case, case.bearing.as_ref(), None);
+        let settings = AnalysisSettings::of(&case, case.bearing.as_ref(), DamageShown::InPlane);
         let mut windows = analyse(
             "P1",
             &settings,

@@ -150,8 +150,9 @@ pub struct BearingSummary<'a> {
     pub place_m: f64,
     /// How often its parts strike in a turn of the shaft, at the contact angles in force.
     pub defect_orders: DefectOrders,
-    /// What its damage adds to a stretch of the signals, over the RMS without it, the largest sensor's.
-    pub damage_share: f64,
+    /// What its damage adds to a stretch of the signals, over the RMS without it, the largest sensor's; null where no stretch was
+    /// compared.
+    pub damage_share: Option<f64>,
     /// Azimuth of each ball, rad.
     pub ball_angle_rad: Vec<f64>,
     /// Contact angle of each ball at the inner and the outer race, rad; null without contact.
@@ -266,21 +267,18 @@ impl<'a> BearingSummary<'a> {
     fn all_of(machine: &'a Machine) -> Vec<Self> {
         let Machine::InSpace(machine) = machine else { return Vec::new() };
         let scene = &machine.scene;
-        let bearings = scene.setup.bearings.iter().zip(&scene.orders).zip(&scene.equilibrium.bearings);
-        let summary =
-            |(((own, orders), balls), damage): (((&'a BearingInPlace, &DefectOrders), &Vec<SpatialBallLoad>), &f64)| {
-                Self {
-                    label: &own.label,
-                    place_m: own.place,
-                    defect_orders: *orders,
-                    damage_share: *damage,
-                    ball_angle_rad: balls.iter().map(|ball| ball.azimuth).collect(),
-                    contact_angle_rad: balls.iter().map(|ball| ball.contact_angle).collect(),
-                    inner_force_n: balls.iter().map(|ball| ball.load[0]).collect(),
-                    outer_force_n: balls.iter().map(|ball| ball.load[1]).collect(),
-                }
-            };
-        bearings.zip(&machine.damage).map(summary).collect()
+        let bearings = scene.setup.bearings.iter().zip(&scene.equilibrium.bearings).enumerate();
+        let summary = |(index, (own, balls)): (usize, (&'a BearingInPlace, &Vec<SpatialBallLoad>))| Self {
+            label: &own.label,
+            place_m: own.place,
+            defect_orders: scene.orders[index],
+            damage_share: machine.damage[index],
+            ball_angle_rad: balls.iter().map(|ball| ball.azimuth).collect(),
+            contact_angle_rad: balls.iter().map(|ball| ball.contact_angle).collect(),
+            inner_force_n: balls.iter().map(|ball| ball.load[0]).collect(),
+            outer_force_n: balls.iter().map(|ball| ball.load[1]).collect(),
+        };
+        bearings.map(summary).collect()
     }
 }
 

@@ -8,7 +8,7 @@ use super::pilot::{self, Stepped};
 use super::plan::{IMPACTS_GROWTH, together, vectors};
 use super::quantities::{Asked, IMPACT, USUAL_BAND, tangent};
 use super::stepping::{self, step_or};
-use crate::app::case::{self, Case, ModesKept};
+use crate::app::case::{self, Case, ModesKept, StepLength};
 use crate::app::commands::run::{InMemory, Simulation, Span};
 use crate::app::error::ComputeError;
 use crate::app::scene::structure::complete_for;
@@ -79,37 +79,37 @@ impl Stepped for MachineScene {
     }
 }
 
-/// Longest stretch that is compared with a sound bearing, s: at a crawl no ball may come to the damage in it.
+/// Ball passes of the slowest bearing in a stretch that is compared with a sound one, and the longest such stretch, s.
+const PASSES: f64 = 1.5;
 const LONGEST_PASS: f64 = 0.1;
 
 impl MachineScene {
-    /// Of each bearing what its damage adds to a stretch of the signals in the band, over the RMS without it, the largest sensor's.
-    pub(crate) fn damage_shown(&self, case: &Case, asked: &case::Transient, model: &RunModel) -> Vec<f64> {
+    /// Of each bearing what its damage adds to a stretch of the signals in the band, over the RMS without it, the largest sensor's: zero of
+    /// a sound one. `None` where a stretch cannot be stepped, or is too short for a ball to come to the damage.
+    pub(crate) fn damage_shown(&self, case: &Case, asked: &case::Transient, model: &RunModel) -> Vec<Option<f64>> {
         let band_hz = case.band_hz().map_or(USUAL_BAND, |band| band[1]);
         let run_s = asked.end - asked.start;
         let pass = |(own, orders): (&BearingInPlace, &DefectOrders)| {
             let shaft = own.cage.shaft().fastest(asked.start, asked.end) / TAU;
             1.0 / (shaft * orders.outer.min(orders.inner))
         };
-        let slowest = self.setup.bearings.iter().zip(&self.orders).map(pass).fold(0.0, f64::max);
-        let length = (1.5 * slowest).min(LONGEST_PASS).max(pilot::stretch_s(asked, band_hz)).min(run_s);
+        let needed = PASSES * self.setup.bearings.iter().zip(&self.orders).map(pass).fold(0.0, f64::max);
+        let length = needed.max(pilot::stretch_s(asked, band_hz)).min(run_s);
         let begin = self.before_a_strike(asked, run_s - length);
         let span = Span { duration: length, output_hz: asked.output_hz };
-        let damaged = |own: &BearingInPlace| !own.bearing.defects().is_empty();
-        let Some(with) =
-            self.setup.has_defects().then(|| pilot::stretch(self, model, span, begin, band_hz).ok()).flatten()
-        else {
-            return vec![0.0; self.setup.bearings.len()];
-        };
+        let signals = |scene: &Self| pilot::stretch(scene, model, span, begin, band_hz).ok();
+        let is_long = needed <= LONGEST_PASS && needed <= run_s;
+        let with = (self.setup.has_defects() && is_long).then(|| signals(self)).flatten();
         let share = |bearing: usize| {
-            let without = self.without_damage(bearing);
-            let without = pilot::stretch(&without, model, span, begin, band_hz).ok()?;
-            let shares =
-                with.iter().zip(&without).filter_map(|(with, without)| relative_difference(with, without).ok());
-            shares.reduce(f64::max)
+            let without = signals(&self.without_damage(bearing))?;
+            let pairs = with.as_ref()?.iter().zip(&without);
+            pairs.filter_map(|(with, without)| relative_difference(with, without).ok()).reduce(f64::max)
         };
         let bearings = self.setup.bearings.iter().enumerate();
-        bearings.map(|(index, own)| if damaged(own) { share(index).unwrap_or(0.0) } else { 0.0 }).collect()
+        let of_bearing = |(index, own): (usize, &BearingInPlace)| {
+            if own.bearing.defects().is_empty() { Some(0.0) } else { share(index) }
+        };
+        bearings.map(of_bearing).collect()
     }
 }
 
@@ -162,7 +162,8 @@ impl ModelChoice {
         let mut parts = vec![modes_part(asked, scene, &model, band_hz), method_part, step_part];
         parts.extend(vectors(case, &scene.stage, band_hz));
         let estimated_error = together(&mut parts, growth);
-        let stable_s = None;
+        let given = asked.step != StepLength::Auto;
+        let stable_s = given.then(|| step_limit(scene, &model)).flatten().filter(|stable| model.step > *stable);
         Ok(Self {
             model,
             estimated_error,
@@ -265,13 +266,17 @@ const MOST_COORDINATES: usize = 400;
 
 /// The longest step of exponential-adams with a tolerance in which small motions at rest do not grow, s.
 fn stable_step(scene: &MachineScene, model: &RunModel) -> Option<f64> {
-    let Method::ExponentialAdams { tolerance: Some(_) } = model.method else { return None };
+    let by_tolerance = matches!(model.method, Method::ExponentialAdams { tolerance: Some(_) });
+    by_tolerance.then(|| step_limit(scene, model)).flatten().map(|limit| stepping::STABLE * limit)
+}
+
+/// The longest step of a method in which small motions at rest do not grow, s; `None` where it has no limit, or it is not looked for.
+fn step_limit(scene: &MachineScene, model: &RunModel) -> Option<f64> {
     let (mut system, state) = scene.at_rest(model, scene.start).ok()?;
     if state.y.len() > MOST_COORDINATES {
         return None;
     }
-    let limit = model.method.step_limit(&mut system, &state)?;
-    Some(stepping::STABLE * limit.step_s)
+    model.method.step_limit(&mut system, &state).map(|limit| limit.step_s)
 }
 
 /// The shortest time in which a ball passes a defect from end to end, s; `None` without one, or where nothing turns.
