@@ -28,7 +28,7 @@ fn refusal(name: &str, set: &[&str]) -> String {
         Ok(case) => case,
         Err(error) => return error,
     };
-    match case.asked_run() {
+    match case.asked_run("`run`") {
         Err(error) => error.to_string(),
         Ok(_) => compute_run(&case, &Unwatched).unwrap_err().to_string(),
     }
@@ -40,9 +40,9 @@ fn the_plane_is_chosen_where_it_is_enough() {
     for name in
         ["tadina2011/outer-dent.toml", "scenes/smooth.toml", "housings/end_shield.toml", "housings/pillow_block.toml"]
     {
-        assert!(matches!(load(name, &[]).unwrap().asked_run(), Ok(AskedRun::InPlane(_))), "{name}");
+        assert!(matches!(load(name, &[]).unwrap().asked_run("`run`"), Ok(AskedRun::InPlane(_))), "{name}");
     }
-    let reason = |set: &[&str]| match load("housings/end_shield.toml", set).unwrap().asked_run() {
+    let reason = |set: &[&str]| match load("housings/end_shield.toml", set).unwrap().asked_run("`run`") {
         Ok(AskedRun::InSpace(spatial, _)) => spatial.reason,
         other => panic!("{other:?}"),
     };

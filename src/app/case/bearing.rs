@@ -41,7 +41,7 @@ pub struct Bearing {
     /// Radial play from the centred position to first contact; negative: preload. `None`: what the radii give.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub radial_play: Option<f64>,
-    /// Free contact angle in degrees, above 0 and below 90, in the place of `radial_play`; for `plummer bearing` alone.
+    /// Free contact angle in degrees, above 0 and below 90, in the place of `radial_play`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub contact_angle_deg: Option<f64>,
     /// Which way along the axis the shaft may push the inner ring. `None`: along +z with `contact_angle_deg`, either way without.
@@ -50,7 +50,7 @@ pub struct Bearing {
     /// Which race carries the friction of the balls' gyroscopic moment. `None`: the outer one.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub race_control: Option<RaceControl>,
-    /// Axial preload along `thrust`; for `plummer bearing` alone.
+    /// Axial preload along `thrust`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub preload: Option<Preload>,
     /// Hunt-Crossley contact damping in s/m, >= 0: F = k delta^(3/2) (1 + c delta').

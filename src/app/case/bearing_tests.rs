@@ -308,7 +308,7 @@ fn the_plane_model_refuses_keys_of_the_bearing_in_space() {
         ("shaft.centre=1e-3", "shaft.centre"),
     ] {
         let case = case(&[set, "bearing.radial_play=1e-6"]);
-        let error = case.ready_for(Purpose::Chart).unwrap_err();
+        let error = case.for_stability().unwrap_err();
         assert!(error.to_string().starts_with(&format!("--set {set}: `{key}`: found ")), "{error}");
         assert!(error.help().unwrap().ends_with("or use `plummer run` or `plummer bearing`, which know it"));
         assert!(case.for_run().is_err());

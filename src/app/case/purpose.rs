@@ -66,6 +66,24 @@ pub struct RunCase<'c> {
     pub transient: &'c Transient,
 }
 
+impl<'c> AskedRun<'c> {
+    /// The whole case.
+    pub(crate) fn case(&self) -> &'c Case {
+        match self {
+            Self::InPlane(run) => run.case,
+            Self::InSpace(run, _) => run.case,
+        }
+    }
+
+    /// The simulation in time.
+    pub(crate) fn transient(&self) -> &'c Transient {
+        match self {
+            Self::InPlane(run) => run.transient,
+            Self::InSpace(_, transient) => transient,
+        }
+    }
+}
+
 impl Case {
     /// Checks that the case has the tables that a purpose needs.
     ///
@@ -77,8 +95,8 @@ impl Case {
             || self.condense.interface != Interface::Ring;
         let (by, needs) = match purpose {
             Purpose::Bearing => return self.for_bearing().map(|_| ()),
-            Purpose::Run => return self.asked_run().map(|_| ()),
-            Purpose::Chart => return self.for_chart().map(|_| ()),
+            Purpose::Run => return self.asked_run("`run`").map(|_| ()),
+            Purpose::Chart => return self.asked_run("`chart`").map(|_| ()),
             Purpose::Modes => {
                 let modelled = self.housing.is_some() || self.ring.is_some();
                 self.needed("`modes`", "[housing] or [ring]", modelled.then_some(()))?;
@@ -196,14 +214,13 @@ impl Case {
         Ok((bearing, shaft))
     }
 
-    /// Returns the parts that `run` needs: of the bearing in its plane where nothing asks for more.
+    /// Returns the parts that a simulation in time needs, which `by` asks for: of the bearing in its plane where nothing asks for more.
     ///
     /// # Errors
     /// [`CaseError`] with the first table or key that the case lacks.
-    pub fn asked_run(&self) -> Result<AskedRun<'_>, CaseError> {
-        let by = "`run`";
+    pub fn asked_run(&self, by: &str) -> Result<AskedRun<'_>, CaseError> {
         let Some(spatial) = self.in_space(by)? else {
-            return self.for_run().map(AskedRun::InPlane);
+            return self.simulated(by).map(AskedRun::InPlane);
         };
         self.needed(by, "[speed]", self.speed.as_ref())?;
         let transient = self.needed(by, "[transient]", self.transient.as_ref())?;
@@ -253,12 +270,12 @@ impl Case {
         self.simulated("`run`")
     }
 
-    /// Returns the parts that `chart` needs: those of a run.
+    /// Returns the parts that a map of stable steps needs: those of a run in the plane.
     ///
     /// # Errors
     /// As [`Case::for_run`].
-    pub(crate) fn for_chart(&self) -> Result<RunCase<'_>, CaseError> {
-        self.simulated("`chart`")
+    pub(crate) fn for_stability(&self) -> Result<RunCase<'_>, CaseError> {
+        self.simulated("`chart --only stability`")
     }
 
     fn simulated(&self, by: &str) -> Result<RunCase<'_>, CaseError> {

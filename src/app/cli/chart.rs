@@ -6,11 +6,12 @@ use super::output::{extend_new, json};
 use super::report::ReportFiles;
 use super::results::{Job, warnings};
 use super::{ChartPart, CliError, Outcome, OutputFolder, Progress, typed};
+use crate::app::case::AskedRun;
 use crate::app::commands::result::CaseResult;
 use crate::app::error::ComputeError;
 use crate::app::scene::Scene;
 use crate::app::studies::chart::{
-    Budget, Chart, ChartResult, Condition, Effort, NO_TIME, News, Parameter, Plan, Point, Stability, Stage,
+    Budget, Chart, ChartResult, ChartScene, Condition, Effort, NO_TIME, News, Parameter, Plan, Point, Stability, Stage,
     chart_report, compute_chart, compute_stability, model_name, resonance_plot, stability_map, stability_report,
     stability_section, work_precision,
 };
@@ -54,16 +55,15 @@ pub(super) fn chart(job: &Job<'_>, asked: Asked) -> Result<Outcome, CliError> {
     if only == Some(ChartPart::Stability) {
         return alone(job, effort, budget);
     }
-    let run = case.for_chart().map_err(ComputeError::from)?;
+    let run = case.asked_run("`chart`").map_err(ComputeError::from)?;
     let so_far = SoFar::new(folder, progress);
-    let result = compute_chart(run, effort, budget, &|news| so_far.hear(news), progress)?;
-    let stability = match only {
-        None => {
+    let result = compute_chart(&run, effort, budget, &|news| so_far.hear(news), progress)?;
+    let stability = match (only, &run, &result.scene) {
+        (None, AskedRun::InPlane(run), ChartScene::InPlane(scene)) => {
             let conditions = Condition::all(case, effort);
-            let map = compute_stability(run, &result.scene, conditions, effort, budget.until(Stage::Map), progress)?;
-            Some(map)
+            Some(compute_stability(*run, scene, conditions, effort, budget.until(Stage::Map), progress)?)
         }
-        Some(_) => None,
+        _ => None,
     };
     progress.stage("write");
     let svg = work_precision(&result).to_svg().map_err(ComputeError::from)?;
@@ -191,7 +191,7 @@ fn summary(result: &Chart) -> String {
             result.starts.starts.len(),
             ms(result.starts.spread_s),
             significant(result.starts.first_s(), 4),
-            result.scene.stage.modes.count(),
+            result.scene.stage().modes.count(),
             significant(reference.disagreement, 2),
         ),
         format!(
@@ -208,7 +208,7 @@ fn summary(result: &Chart) -> String {
         ),
     ];
     lines.extend(omitted(result));
-    lines.extend(warnings(&result.scene.doubts));
+    lines.extend(warnings(result.scene.doubts()));
     lines.push("front, by wall time a simulated second:".to_owned());
     lines.extend(result.front.iter().map(|&place| line(&result.points[place], reference.disagreement)));
     let [chosen, source] = &result.over_all_starts;
@@ -258,7 +258,7 @@ fn line(point: &Point, floor: f64) -> String {
 /// [`CliError`] when the input is wrong, the computation fails or a file cannot be written.
 pub(super) fn alone(job: &Job<'_>, effort: Effort, budget: Budget) -> Result<Outcome, CliError> {
     let Job { case, progress, ref folder, .. } = *job;
-    let run = case.for_chart().map_err(ComputeError::from)?;
+    let run = case.for_stability().map_err(ComputeError::from)?;
     let scene = Scene::with_all_modes(run, progress)?;
     let until = budget.after_scene()?.until(Stage::Map);
     let conditions = Condition::all(case, effort);

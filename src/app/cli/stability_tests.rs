@@ -27,7 +27,7 @@ fn a_map_has_its_files_and_limits() {
     let case = small();
     let out = std::env::temp_dir().join(format!("plummer-{}-stability", std::process::id()));
     fs::create_dir_all(&out).unwrap();
-    let run = case.for_chart().unwrap();
+    let run = case.for_stability().unwrap();
     let scene = Scene::build(run, &Unwatched).unwrap();
     let asked = vec![
         Condition::AsGiven,

@@ -54,9 +54,26 @@ impl MachineScene {
     ///
     /// # Errors
     /// [`ComputeError`] of the stages that it goes through.
-    pub(crate) fn build(
+    pub(crate) fn build(run: &SpatialCase<'_>, span: [f64; 2], watch: &impl Watch) -> Result<Self, ComputeError> {
+        Self::with_modes(run, span, needed_modes(run.case), watch)
+    }
+
+    /// The same with all modes of its structure, however many.
+    ///
+    /// # Errors
+    /// As [`build`](Self::build).
+    pub(crate) fn with_all_modes(
+        run: &SpatialCase<'_>,
+        span: [f64; 2],
+        watch: &impl Watch,
+    ) -> Result<Self, ComputeError> {
+        Self::with_modes(run, span, usize::MAX, watch)
+    }
+
+    fn with_modes(
         run: &SpatialCase<'_>,
         [start, end]: [f64; 2],
+        count: usize,
         watch: &impl Watch,
     ) -> Result<Self, ComputeError> {
         let case = run.case;
@@ -64,7 +81,7 @@ impl MachineScene {
         for seat in &run.seats {
             refuse_plane_keys(case, seat)?;
         }
-        let stage = CoupledStructure::around_rings(case, needed_modes(case), watch)?;
+        let stage = CoupledStructure::around_rings(case, count, watch)?;
         if let Some(imported) = &stage.bodies.imported {
             imported.refuse_structural_damping()?;
         }
@@ -120,12 +137,34 @@ impl MachineScene {
     /// # Errors
     /// [`ComputeError::System`] for a model that does not fit, or where nothing rests.
     pub(crate) fn at_rest(&self, model: &RunModel, time: f64) -> Result<(SpatialSystem, State), ComputeError> {
-        let (structure, basis) = (&self.stage.structure, self.basis(model)?);
-        let condition = SpatialCondition::at(&self.setup, time);
-        let rest = SpatialEquilibrium::in_modes(structure, &basis, &self.setup, &condition)?;
-        let system = SpatialSystem::new(structure, &basis, self.setup.clone(), ModeSelection::All, &self.damping)?;
-        let state = system.state_at(time, &rest, &basis);
+        let (system, basis) = self.system(model)?;
+        let state = self.rest_in(&system, &basis, time)?;
         Ok((system, state))
+    }
+
+    /// A model's system, and its basis.
+    ///
+    /// # Errors
+    /// [`ComputeError::System`] for a model that does not fit.
+    pub(crate) fn system(&self, model: &RunModel) -> Result<(SpatialSystem, StructureModes), ComputeError> {
+        let (structure, basis) = (&self.stage.structure, self.basis(model)?);
+        let system = SpatialSystem::new(structure, &basis, self.setup.clone(), ModeSelection::All, &self.damping)?;
+        Ok((system, basis))
+    }
+
+    /// Where it rests at an instant (s).
+    ///
+    /// # Errors
+    /// [`ComputeError::System`] where nothing rests.
+    pub(crate) fn rest_in(
+        &self,
+        system: &SpatialSystem,
+        basis: &StructureModes,
+        time: f64,
+    ) -> Result<State, ComputeError> {
+        let condition = SpatialCondition::at(&self.setup, time);
+        let rest = SpatialEquilibrium::in_modes(&self.stage.structure, basis, &self.setup, &condition)?;
+        Ok(system.state_at(time, &rest, basis))
     }
 }
 

@@ -4,6 +4,7 @@
 //! in its plane has a system of its own, [`CoupledSystem`](super::CoupledSystem), to the same equations without the axial
 //! coordinates. Read `force.rs` first.
 
+mod ball_forces;
 mod balls;
 mod damage;
 mod energy;
@@ -12,6 +13,7 @@ mod force;
 mod groove_lanes;
 mod loaded;
 mod pose;
+mod second_order;
 mod setup;
 mod springs;
 mod static_vectors;

@@ -1,10 +1,11 @@
 //! A bearing, its faults and what moves and loads it, in words and units.
 
 use super::phrases::{and, direction_words, length, listed};
-use crate::app::case::{Bearing, Case, ContactStiffness, Defect, DentProfile, Load, Shaft, Slip, Speed};
+use crate::app::case::{Bearing, Case, ContactStiffness, Defect, DentProfile, Load, Preload, Shaft, Slip, Speed};
 use crate::app::commands::analyze::WindowAnalysis;
 use crate::app::scene::race_contacts;
 use crate::bearing::Race;
+use crate::bearing::spatial::Thrust;
 use crate::report::{Fact, given, quantity, significant};
 use crate::signal::diagnosis::{Diagnosis, Fault};
 
@@ -16,6 +17,7 @@ pub(super) fn facts(case: &Case, moves: bool) -> Vec<Fact> {
     let mut facts = Vec::new();
     for (label, bearing) in case.all_bearings() {
         let mut own = vec![bearing_fact(bearing)];
+        own.extend(axial(bearing));
         own.extend(contact(case, bearing));
         own.extend(imperfections(bearing));
         let name = "Fault of the bearing";
@@ -60,6 +62,21 @@ pub(crate) fn bearing_fact(bearing: &Bearing) -> Fact {
         length(2.0 * bearing.ball_radius)
     );
     Fact::new("Bearing", text)
+}
+
+/// Contact angle, the way in which it holds thrust, and preload, as far as the case gives them.
+fn axial(bearing: &Bearing) -> Option<Fact> {
+    let angle = bearing.contact_angle_deg.map(|degrees| format!("free contact angle {}\u{b0}", given(degrees)));
+    let thrust = match bearing.thrust_or_default() {
+        Thrust::Both => None,
+        Thrust::Positive => Some("holds thrust along +z".to_owned()),
+        Thrust::Negative => Some("holds thrust along \u{2212}z".to_owned()),
+    };
+    let preload = bearing.preload.map(|preload| match preload {
+        Preload::Force(newtons) => format!("preload {}", quantity(newtons, "N")),
+        Preload::Displacement(metres) => format!("preload by a displacement of {}", length(metres)),
+    });
+    listed("Axial", [angle, thrust, preload].into_iter().flatten())
 }
 
 /// Stiffness and damping of the contacts.

@@ -139,6 +139,9 @@ pub(crate) fn assumptions_in_space(setup: &SpatialSetup) -> Vec<String> {
         "The cage turns as the balls roll at the contact angles in force at the highest speed of the run; orders do not follow the speed.".to_owned(),
         "The modes left out act by their static response under the balls, where transient.residual is true.".to_owned(),
     ];
+    if !setup.has_defects() {
+        list.push("Without damage a machine vibrates as its compliance varies along the races. That hangs on mesh and ring nodes, and the estimate does not cover it: compare with more ring.nodes.".to_owned());
+    }
     let damping = setup.bearings.iter().map(|own| own.contact_damping).fold(0.0, f64::max);
     if damping > 0.0 {
         list.push(format!("Contact damping (Hunt-Crossley) up to {} s/m.", significant(damping, 4)));

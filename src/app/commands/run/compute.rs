@@ -57,7 +57,7 @@ pub fn compute_run(case: &Case, watch: &impl Watch) -> Result<RunResult, Compute
 /// # Errors
 /// As [`compute_run`].
 pub(crate) fn explain_run(case: &Case, watch: &impl Watch) -> Result<(ModelChoice, Vec<String>), ComputeError> {
-    let (choice, doubts) = match case.asked_run()? {
+    let (choice, doubts) = match case.asked_run("`run`")? {
         AskedRun::InPlane(run) => {
             let scene = Scene::build(run, watch)?;
             (ModelChoice::of_case(run, &scene)?, scene.doubts)
@@ -80,7 +80,7 @@ pub(crate) fn compute_kept_run<C: Checkpoints>(
     watch: &impl Watch,
     checkpoints: &mut C,
 ) -> Result<RunResult<C::Record>, ComputeError> {
-    match case.asked_run()? {
+    match case.asked_run("`run`")? {
         AskedRun::InPlane(run) => run_in_plane(run, watch, checkpoints),
         AskedRun::InSpace(spatial, asked) => run_in_space(&spatial, asked, watch, checkpoints),
     }

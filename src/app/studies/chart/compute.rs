@@ -6,15 +6,14 @@ use super::plan::{Costs, Plan};
 use super::points::{Comparison, Point, PointError, TIMED};
 use super::reference::models;
 use super::refining::{Found, refine};
-use super::starts::{Ready, Systems};
+use super::scene::{ChartScene, Ready};
+use super::starts::Systems;
 use super::statistics::{ComparedFigure, FigureSettings, compare, ensemble};
 use super::{Effort, Failure, FailureKind, Reference, Settings, Start, StartReference, Starts};
-use crate::app::case::{self, Case, ModesKept, RunCase, StepLength};
+use crate::app::case::{self, AskedRun, Case, ModesKept, StepLength};
 use crate::app::commands::analyze::AskedBand;
-use crate::app::commands::run::choice::ModelChoice;
-use crate::app::commands::run::choice::pilot::next_strike;
 use crate::app::error::ComputeError;
-use crate::app::scene::{RunModel, Scene};
+use crate::app::scene::RunModel;
 use crate::numerics::Watch;
 use crate::report::{counted, duration, significant};
 use schemars::JsonSchema;
@@ -31,7 +30,7 @@ pub struct Chart {
     /// Methods and models that there was no time to refine, each with what it lacks.
     pub unrefined: Vec<String>,
     /// What was simulated.
-    pub scene: Scene,
+    pub scene: ChartScene,
     /// Starts in which a ball strikes the first defect of a race within the horizon; `None` without such a defect.
     pub struck: Option<usize>,
     /// What was compared.
@@ -110,32 +109,28 @@ pub(crate) enum News<'a> {
 /// # Errors
 /// [`ComputeError`], also where not even the reference fits into the budget; a candidate that fails is no error but an omission.
 pub(crate) fn compute_chart(
-    run: RunCase<'_>,
+    run: &AskedRun<'_>,
     effort: Effort,
     budget: Budget,
     told: &(dyn Fn(News<'_>) + Sync),
     watch: &impl Watch,
 ) -> Result<Chart, ComputeError> {
-    let RunCase { case, transient: asked, .. } = run;
+    let (case, asked) = (run.case(), run.transient());
     let whole = budget;
-    let scene = Scene::with_all_modes(run, watch)?;
-    let asked_settings = Settings::of(run, effort)?;
+    let scene = ChartScene::build(run, watch)?;
+    let asked_settings = Settings::of(case, asked, effort)?;
     watch.stage("choice");
-    let chosen = |transient: &case::Transient| -> Result<RunModel, ComputeError> {
-        let run = RunCase { transient, ..run };
-        Ok(ModelChoice::of_case(run, &scene)?.model)
-    };
     // as it is used there: all displacements, its own step
     let source = case::Transient { residual: false, ..automatic(asked, case::Method::NewmarkExplicit) };
-    let wanted = [chosen(&automatic(asked, case::Method::Auto))?, chosen(&source)?];
+    let wanted = [scene.choice(case, &automatic(asked, case::Method::Auto))?, scene.choice(case, &source)?];
     let budget = whole.after_scene()?;
     watch.stage("pilots");
-    let frequencies_hz: Vec<f64> =
-        (0..scene.stage.modes.count()).map(|mode| scene.stage.modes.frequency_hz(mode)).collect();
+    let modes = &scene.stage().modes;
+    let frequencies_hz: Vec<f64> = (0..modes.count()).map(|mode| modes.frequency_hz(mode)).collect();
     let families = families(&asked_settings, &frequencies_hz, &wanted);
     let of_reference = models(&asked_settings, 0);
     let systems = Systems::of_all(&scene, of_reference.iter().chain(&wanted).chain(families.iter().flatten()));
-    let at_rest = Start { number: 0, time_s: scene.start, equilibrium: scene.equilibrium.clone() };
+    let at_rest = Start { number: 0, time_s: scene.start(), equilibrium: None };
     let until = budget.until(Stage::Reference(0));
     let costs = Costs::measured(&systems, &at_rest, &wanted[0], &asked_settings, until);
     let costs = costs.map_err(|failure| no_pilot(&failure, whole))?;
@@ -209,7 +204,7 @@ pub(crate) fn compute_chart(
     let struck = struck(&scene, &reference);
     let mut scene = scene;
     if struck == Some(0) {
-        scene.doubts.push(format!(
+        scene.doubt(format!(
             "in none of the {} starts does a ball strike the defect within its horizon: the errors say nothing about impacts; more of transient.ensemble.runs, or another transient.start, has some",
             reference.starts.len()
         ));
@@ -232,13 +227,9 @@ pub(crate) fn compute_chart(
     })
 }
 
-fn struck(scene: &Scene, reference: &Reference) -> Option<usize> {
-    scene.setup.race_defects.first()?;
-    let strikes = |of: &&StartReference| {
-        let next = next_strike(scene, of.start.time_s);
-        next.is_some_and(|(until, left)| left.unwrap_or(until).min(until) < of.horizon_s)
-    };
-    Some(reference.starts.iter().filter(strikes).count())
+fn struck(scene: &ChartScene, reference: &Reference) -> Option<usize> {
+    let strikes = |of: &&StartReference| scene.next_strike(of.start.time_s).is_some_and(|next| next < of.horizon_s);
+    scene.is_damaged().then(|| reference.starts.iter().filter(strikes).count())
 }
 
 fn ms(seconds: f64) -> String {

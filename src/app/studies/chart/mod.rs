@@ -21,6 +21,7 @@ mod points_tests;
 mod reference;
 mod refining;
 mod report;
+mod scene;
 mod stability;
 mod starts;
 mod statistics;
@@ -37,6 +38,7 @@ pub(crate) use plots::work_precision;
 pub use points::{GROWTHS, GrowthError, Point, PointError};
 pub use reference::{Growth, Reference, StartReference};
 pub(crate) use report::chart_report;
+pub use scene::ChartScene;
 pub use stability::{Condition, ConditionSummary, MethodStability, Stability, StabilityModel, StepRecord, Window};
 pub(crate) use stability::{
     NO_TIME, compute_stability, resonance_plot, stability_map, stability_report, stability_section,

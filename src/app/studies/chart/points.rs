@@ -1,7 +1,8 @@
 //! The points of the chart: how far each candidate is from the reference, and what it costs.
 
 use super::budget::Deadline;
-use super::starts::{Ready, Systems};
+use super::scene::Ready;
+use super::starts::Systems;
 use super::trace::{Failure, FailureKind, Trace};
 use super::{Estimate, Reference, Settings, StartReference};
 use crate::app::commands::run::Span;

@@ -4,11 +4,12 @@ use super::budget::{Budget, Deadline, Stage};
 use super::points::{Comparison, Point};
 use super::reference::models;
 use super::refining::refine;
+use super::scene::ChartScene;
 use super::starts::Systems;
 use super::{Effort, FailureKind, Reference, Settings, Starts};
 use crate::app::case::Case;
 use crate::app::error::ComputeError;
-use crate::app::scene::{RunModel, Scene};
+use crate::app::scene::RunModel;
 use crate::numerics::Unwatched;
 use crate::numerics::ode::Method;
 use crate::system::{BallsInertia, ModeSelection};
@@ -16,15 +17,19 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use std::time::{Duration, Instant};
 
 /// The smooth scene with a ring of 12 nodes, 0.5 ms from two starts.
-fn small() -> (Scene, Settings) {
+fn small() -> (ChartScene, Settings) {
     let set = ["ring.nodes=12", "transient.end=0.5e-3", "transient.ensemble.runs=2"];
     let case = Case::example("scenes/smooth", &set);
-    let run = case.for_run().unwrap();
-    let settings = Settings::of(run, Effort::Quick).unwrap();
-    (Scene::build(run, &Unwatched).unwrap(), settings)
+    built(&case, Effort::Quick)
 }
 
-fn reference(scene: &Scene, starts: &Starts, settings: &Settings) -> Reference {
+fn built(case: &Case, effort: Effort) -> (ChartScene, Settings) {
+    let run = case.asked_run("`chart`").unwrap();
+    let settings = Settings::of(case, run.transient(), effort).unwrap();
+    (ChartScene::build(&run, &Unwatched).unwrap(), settings)
+}
+
+fn reference(scene: &ChartScene, starts: &Starts, settings: &Settings) -> Reference {
     let [by, _] = models(settings, 0);
     let systems = Systems::of_all(scene, [&by]);
     Reference::find(systems.of(&by).unwrap(), starts, settings, Deadline::NEVER, || ()).unwrap()
@@ -91,10 +96,8 @@ fn points_do_not_depend_on_the_number_of_threads_and_failures_say_why() {
 fn marked_points_take_every_start_and_others_some() {
     let set = ["ring.nodes=12", "transient.end=0.2e-3", "accuracy.band_hz=[0,160000]", "transient.ensemble.runs=9"];
     let case = Case::example("scenes/smooth", &set);
-    let run = case.for_run().unwrap();
-    let settings = Settings::of(run, Effort::Full).unwrap();
+    let (scene, settings) = built(&case, Effort::Full);
     assert_eq!(settings.point_stride(), 2);
-    let scene = Scene::build(run, &Unwatched).unwrap();
     let starts = Starts::over_ball_pass(&scene, &settings, settings.span_s).unwrap();
     let reference = reference(&scene, &starts, &settings);
     let family = all_modes(Method::Exponential, &[2e-7]);
@@ -155,12 +158,10 @@ fn starts_of_a_run_up_lie_where_it_is_fastest() {
     let set = ["ring.nodes=12", "transient.ensemble.runs=2"];
     for (name, runs_up) in [("tadina2011/healthy", true), ("scenes/smooth", false)] {
         let case = Case::example(name, &set);
-        let run = case.for_run().unwrap();
-        let settings = Settings::of(run, Effort::Quick).unwrap();
-        let scene = Scene::build(run, &Unwatched).unwrap();
-        let end = run.transient.end;
+        let (scene, settings) = built(&case, Effort::Quick);
+        let end = case.for_run().unwrap().transient.end;
         let Starts { starts, spread_s, .. } = Starts::over_ball_pass(&scene, &settings, end).unwrap();
-        let cage = &scene.setup.cage;
+        let cage = scene.cage();
         let begin = starts[0].time_s;
         let turned = cage.motion(begin + spread_s).angle - cage.motion(begin).angle;
         if runs_up {
@@ -170,7 +171,37 @@ fn starts_of_a_run_up_lie_where_it_is_fastest() {
             let longest = settings.span_s.max(settings.statistics_s) + settings.edge_s;
             assert!((reach - longest).abs() < 1e-12, "{reach}, {longest}");
         } else {
-            assert!((begin - scene.start).abs() < 1e-12, "{name}: {begin}");
+            assert!((begin - scene.start()).abs() < 1e-12, "{name}: {begin}");
         }
     }
+}
+
+/// Two methods that share nothing agree on a shaft in two bearings, and errors are measured by them as in the plane.
+#[test]
+fn a_shaft_in_space_is_charted_as_a_bearing_in_its_plane() {
+    let set = [
+        "bearings[0].ring.nodes=8",
+        "bearings[1].ring.nodes=8",
+        "bearings[0].bearing.preload={displacement=4e-6}",
+        "bearings[1].bearing.preload={displacement=4e-6}",
+        "bearings[0].bearing.defects=[]",
+        "accuracy.band_hz=[0,20000]",
+        "transient.end=1e-3",
+        "analysis.envelope=[]",
+        "transient.ensemble.runs=2",
+    ];
+    let (scene, settings) = built(&Case::example("machines/spindle", &set), Effort::Quick);
+    let starts = Starts::over_ball_pass(&scene, &settings, settings.span_s).unwrap();
+    assert!(starts.starts.iter().all(|start| start.equilibrium.is_none()) && starts.left_out.is_empty());
+    let reference = reference(&scene, &starts, &settings);
+    // what is wanted of a reference
+    assert!(reference.disagreement < 0.01 * settings.target, "{}", reference.disagreement);
+    assert!(!scene.is_damaged() && scene.next_strike(0.0).is_none());
+    let families = [all_modes(Method::Exponential, &[4e-7, 1e-7])];
+    let systems = Systems::of_all(&scene, families.iter().flatten());
+    let on = Comparison { systems: &systems, reference: &reference, settings: &settings, until: Deadline::NEVER };
+    let found = refine(&families, &[], on, |_: &Point| (), |_| ());
+    let errors: Vec<f64> = found.points.iter().map(|point| point.error.as_ref().unwrap().mean).collect();
+    // second order: sixteen times, less where the coarse step is not small yet
+    assert!(errors[0] > 4.0 * errors[1] && errors[1] < settings.target, "{errors:?}");
 }

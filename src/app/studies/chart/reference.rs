@@ -3,7 +3,7 @@
 //! How fast nearby solutions part, and how long they stay together.
 
 use super::budget::Deadline;
-use super::starts::Ready;
+use super::scene::Ready;
 use super::trace::{Failure, FailureKind, LEAST_STARTS, Trace};
 use super::{Settings, Start, Starts};
 use crate::app::error::ComputeError;

@@ -4,7 +4,7 @@ use super::plots::{between_methods, growth, work_precision};
 use super::statistics::{BEYOND_CHANCE, ComparedFigure};
 use super::{Chart, GROWTHS, Parameter, Point, model_name};
 use crate::app::case::{Case, Purpose};
-use crate::app::commands::parts::{HousingSize, assumptions, bearing_table, inputs, model_facts};
+use crate::app::commands::parts::{HousingSize, inputs, model_facts};
 use crate::report::{Cell, Column, Fact, Report, Section, Table, Verdict, fixed, significant};
 
 /// Composes the report; `command` is the line that made it.
@@ -20,10 +20,10 @@ pub(crate) fn chart_report(case: &Case, chart: &Chart, command: &str) -> Report 
         ));
     }
     report.warnings.extend(chart.without());
-    report.warnings.extend(chart.scene.doubts.iter().cloned());
+    report.warnings.extend(chart.scene.doubts().iter().cloned());
     report.warnings.extend(chart.starts.left_out.iter().map(|text| format!("Left out: {text}")));
-    report.assumptions = assumptions(case, Some(&chart.scene.setup));
-    let stage = &chart.scene.stage;
+    report.assumptions = chart.scene.assumptions(case);
+    let stage = chart.scene.stage();
     let size = stage.bodies.housing.as_ref().map(HousingSize::of_housing);
     report
         .section(Section::new("Inputs").facts(inputs(case, Purpose::Chart, size.as_ref())))
@@ -41,7 +41,7 @@ pub(crate) fn chart_report(case: &Case, chart: &Chart, command: &str) -> Report 
         .section(
             Section::new("Model")
                 .facts(model_facts(&stage.bodies, Some(stage.fixed_interface_modes)))
-                .table(bearing_table(&chart.scene.setup, &chart.scene.contacts, Some(&chart.scene.equilibrium))),
+                .table(chart.scene.bearing_table()),
         )
         .assumption("Every run begins at rest in the equilibrium of its own instant; what follows of switching on unbalance and speed is part of the comparison.")
         .assumption("Wall times are medians of short runs on one thread of this machine, which may have had other work.")
@@ -217,7 +217,7 @@ fn reference_section(chart: &Chart) -> Section {
     Section::new("Reference and horizon")
         .paragraph(format!(
             "Two methods of different kind integrate the fullest model: all {} modes, balls with inertia. They are refined, start by start, until their signals differ by less than a hundredth of the target over the horizon. The horizon is the time in which the distance of a solution from one that began a little beside it grows to {} times what it was at the start: an error made there has then become one of the signal's size if it was as large as the target. Signals are compared point by point inside it alone.",
-            chart.scene.stage.modes.count(),
+            chart.scene.stage().modes.count(),
             significant(factor, 3),
         ))
         .facts([

@@ -2,15 +2,13 @@
 //! and small random changes of their states.
 
 use super::Settings;
-use super::budget::Deadline;
+use super::scene::{ChartScene, Ready};
 use super::trace::{Failure, FailureKind};
-use crate::app::case;
-use crate::app::commands::run::{RunEnd, Simulation, Span};
 use crate::app::error::ComputeError;
-use crate::app::scene::{RunModel, Scene};
+use crate::app::scene::RunModel;
 use crate::bearing::Cage;
 use crate::numerics::ode::State;
-use crate::system::{CoupledSystem, Equilibrium, StaticCondition};
+use crate::system::Equilibrium;
 use rayon::prelude::*;
 
 /// Halvings that find the end of a ball pass.
@@ -26,8 +24,8 @@ pub struct Start {
     pub number: usize,
     /// When, s.
     pub time_s: f64,
-    /// At rest in this.
-    pub equilibrium: Equilibrium,
+    /// At rest in this in its plane; `None` in space, where each model rests by itself.
+    pub equilibrium: Option<Equilibrium>,
 }
 
 /// The starts of a scene's ensemble.
@@ -48,10 +46,10 @@ impl Starts {
     ///
     /// # Errors
     /// [`ComputeError::Failed`] if fewer than two have an equilibrium.
-    pub(crate) fn over_ball_pass(scene: &Scene, settings: &Settings, end: f64) -> Result<Self, ComputeError> {
+    pub(crate) fn over_ball_pass(scene: &ChartScene, settings: &Settings, end: f64) -> Result<Self, ComputeError> {
         let wanted = settings.ensemble.runs;
-        let cage = &scene.setup.cage;
-        let begin = scene.start;
+        let cage = scene.cage();
+        let begin = scene.start();
         let speed = |time: f64| cage.motion(time).speed.abs();
         let last = end - settings.span_s.max(settings.statistics_s) - settings.edge_s;
         let (first, spread_s) = if last > begin && speed(last) > FASTER * speed(begin) {
@@ -64,9 +62,7 @@ impl Starts {
             .into_par_iter()
             .map(|number| {
                 let time_s = first + spread_s * number as f64 / wanted as f64;
-                let condition = StaticCondition::at(&scene.setup, time_s);
-                let found = Equilibrium::find(&scene.stage.structure, &scene.setup, condition);
-                (time_s, number, found)
+                (time_s, number, scene.rest(time_s))
             })
             .collect();
         let mut starts = Vec::with_capacity(wanted);
@@ -118,58 +114,19 @@ fn ball_pass(cage: &Cage, from: f64, to: f64) -> f64 {
     high * (to - from).abs()
 }
 
-/// A system, ready to begin anywhere. It is built once: tables over the raceway take longer than many a short run.
-pub(super) struct Ready<'a> {
-    scene: &'a Scene,
-    system: CoupledSystem,
-}
-
 /// The systems of a scene's models; models that differ by method or step alone share one.
 pub(super) struct Systems<'a>(Vec<(RunModel, Result<Ready<'a>, Failure>)>);
 
-impl<'a> Ready<'a> {
-    /// The system of a model.
-    ///
-    /// # Errors
-    /// [`ComputeError`] for a model that does not fit the scene.
-    pub(super) fn of(scene: &'a Scene, model: &RunModel) -> Result<Self, ComputeError> {
-        Ok(Self { scene, system: scene.system(model)? })
-    }
-
-    /// A whole simulation of a model from rest at a start; perturbed as an ensemble's runs are, if one is given.
-    ///
-    /// # Errors
-    /// [`Failure`] also for one that ended before its time, or that is not done at `until`.
-    pub(super) fn simulate(
-        &self,
-        start: &Start,
-        model: &RunModel,
-        span: Span,
-        perturbed: Option<case::Ensemble>,
-        mut until: Deadline,
-    ) -> Result<Simulation, Failure> {
-        let mut state = self.system.state_at(start.time_s, &start.equilibrium, &self.scene.stage.modes);
-        if let Some(case::Ensemble { perturbation, seed, .. }) = perturbed {
-            perturb(&mut state, perturbation, seed, start.number);
-        }
-        let simulation = Simulation::kept(self.system.clone(), state, model, span, false, &mut until, |_| ())?;
-        match simulation.end {
-            RunEnd::Complete => Ok(simulation),
-            RunEnd::BlewUp(error) => Err(Failure::new(FailureKind::BlewUp, error.to_string())),
-        }
-    }
-}
-
 impl<'a> Systems<'a> {
     /// Those of some models, built in parallel.
-    pub(super) fn of_all<'m>(scene: &'a Scene, models: impl IntoIterator<Item = &'m RunModel>) -> Self {
+    pub(super) fn of_all<'m>(scene: &'a ChartScene, models: impl IntoIterator<Item = &'m RunModel>) -> Self {
         let mut distinct: Vec<RunModel> = Vec::new();
         for model in models {
             if !distinct.iter().any(|other| same_system(model, other)) {
                 distinct.push(*model);
             }
         }
-        let built = distinct.into_par_iter().map(|model| (model, Ready::of(scene, &model).map_err(Failure::from)));
+        let built = distinct.into_par_iter().map(|model| (model, scene.ready(&model).map_err(Failure::from)));
         Self(built.collect())
     }
 

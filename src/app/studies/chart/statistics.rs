@@ -1,7 +1,7 @@
 //! Beyond the horizon: figures that sum a signal up, over an ensemble of runs, with their scatter.
 
 use super::budget::Deadline;
-use super::starts::Ready;
+use super::scene::Ready;
 use super::trace::Failure;
 use super::{Settings, Start};
 use crate::app::error::ComputeError;

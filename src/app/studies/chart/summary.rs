@@ -215,7 +215,7 @@ impl Chart {
         };
         ChartSummary {
             scene: &case.title,
-            warnings: &self.scene.doubts,
+            warnings: self.scene.doubts(),
             band_hz: case.band_hz(),
             target: settings.target,
             budget_s: self.budget_s,
@@ -234,7 +234,7 @@ impl Chart {
                     .models
                     .map(|model| MethodParameter { method: model.method.name(), parameter: Parameter::of(&model) }),
                 model: "all modes, balls with inertia",
-                modes: self.scene.stage.modes.count(),
+                modes: self.scene.stage().modes.count(),
                 disagreement: reference.disagreement,
                 agreed: reference.agreed,
                 starts: starts.map(StartSummary::of).collect(),

@@ -3,7 +3,7 @@
 //! How much a chart computes.
 
 use crate::app::case;
-use crate::app::case::RunCase;
+use crate::app::case::Case;
 use crate::app::commands::run::{Simulation, Span};
 use crate::app::error::ComputeError;
 use crate::numerics::ode::TransientError;
@@ -217,8 +217,7 @@ impl Settings {
     ///
     /// # Errors
     /// [`ComputeError::Input`] if what is simulated is too short for the band.
-    pub(crate) fn of(run: RunCase<'_>, effort: Effort) -> Result<Self, ComputeError> {
-        let RunCase { case, transient: asked, .. } = run;
+    pub(crate) fn of(case: &Case, asked: &case::Transient, effort: Effort) -> Result<Self, ComputeError> {
         let band_hz = case.band_hz().map_or(0.5 * asked.output_hz, |band| band[1]);
         let output_hz = SAMPLES_A_PERIOD * band_hz;
         let edge_s = band_limit_edge_s(1.0 / output_hz, band_hz)?;
@@ -328,7 +327,7 @@ mod effort_tests {
     #[test]
     fn a_budget_takes_starts_first_and_then_from_the_span() {
         let case = Case::example("scenes/smooth", &[]);
-        let asked = Settings::of(case.for_chart().unwrap(), Effort::Quick).unwrap();
+        let asked = Settings::of(&case, case.for_run().unwrap().transient, Effort::Quick).unwrap();
         let fitted = |time: f64| {
             // a second of computing for a start over the whole span
             let settings = asked.fitted(1.0 / (asked.span_s + asked.edge_s), time);

@@ -126,6 +126,8 @@ impl ModelChoice {
         let known = scene.stage.modes.count();
         let mut kept = match asked.modes {
             ModesKept::All => known,
+            // the source integrates all displacements
+            ModesKept::Auto if asked.method == case::Method::NewmarkExplicit => known,
             ModesKept::Count(count) => count.min(known),
             ModesKept::Auto => {
                 let modes = &scene.stage.modes;
@@ -187,6 +189,9 @@ fn modes_part(asked: &case::Transient, scene: &MachineScene, model: &RunModel, b
         vectors => format!(", and {vectors} vectors of the others' static response under the balls"),
     };
     let why = match asked.modes {
+        ModesKept::Auto if asked.method == case::Method::NewmarkExplicit => {
+            "the source's method steps all displacements".to_owned()
+        }
         ModesKept::Auto => format!(
             "as many as a stretch with four times their number needs to agree within {} of the target, in the band up to {} kHz; the error of the method has their part",
             significant(SHARE, 2),
@@ -244,6 +249,10 @@ fn own_step(asked: &case::Transient, scene: &MachineScene, model: &RunModel) -> 
             ),
             (ball, "half a radian of a ball between its races at ten times the largest load at rest"),
         ],
+        Method::NewmarkExplicit => vec![(
+            stepping::NEWMARK_STEP.min(1.0 / highest.max(f64::MIN_POSITIVE)),
+            "half the stability limit in all modes, at most the source's 1.5e-8 s",
+        )],
         _ => vec![
             (interval / stepping::LEAST_SAMPLES, "four samples an output interval"),
             (0.2 * ball, "a tenth of a radian of a ball between its races at ten times the largest load at rest"),

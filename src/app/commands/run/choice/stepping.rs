@@ -40,7 +40,7 @@ pub(crate) const STABLE: f64 = 0.9;
 const PHASE: f64 = 0.1;
 
 /// The source's step for explicit Newmark, s (section 4.1).
-const NEWMARK_STEP: f64 = 1.5e-8;
+pub(super) const NEWMARK_STEP: f64 = 1.5e-8;
 
 /// Tolerance of `dop853` unless one is given: far below one percent after some milliseconds of impacts.
 const DOP853_TOLERANCE: f64 = 1e-6;

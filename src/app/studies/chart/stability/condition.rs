@@ -131,7 +131,7 @@ impl Condition {
     ) -> Result<Variant, ComputeError> {
         let mut case = case.clone();
         self.apply(&mut case, scene);
-        let run = case.for_chart()?;
+        let run = case.for_stability()?;
         let setup = setup_of(run.case, run.bearing, run.shaft)?;
         let setup = BearingSetup { balls_inertia: model.balls_inertia, ..setup };
         let damping = match self {
