@@ -21,7 +21,7 @@ pub mod geometry;
 pub mod hertz;
 pub mod impact;
 pub mod kinematics;
-pub(crate) mod life;
+pub mod life;
 pub mod materials;
 pub mod spatial;
 pub mod speed;
