@@ -77,8 +77,8 @@ fn summary(result: &BearingResult) -> String {
     lines.extend(aligned(&rows));
     if let Some(life) = &result.life {
         let mut line = format!("rating: C {} N", digits(life.load_rating_n));
-        for (value, unit) in [(life.life_mrev, "10^6 revolutions"), (life.life_h, "h")] {
-            line += &value.map(|value| format!(", L10r {} {unit}", significant(value, 4))).unwrap_or_default();
+        for (value, before, unit) in [(life.life_mrev, "L10r ", "million revolutions"), (life.life_h, "", "h")] {
+            line += &value.map(|value| format!(", {before}{} {unit}", significant(value, 4))).unwrap_or_default();
         }
         lines.push(line);
     }

@@ -279,8 +279,12 @@ pub(super) fn doubts(
         let others = if others == 1 { "another stable equilibrium" } else { "other stable equilibria" };
         doubts.push(format!("the load has {others}: the table shows all that were found"));
     }
-    if let Err(error) = rating_life(scene, taken) {
-        doubts.push(format!("no rating life, ISO 281 does not hold: {error}"));
+    match rating_life(scene, taken) {
+        Err(error) => doubts.push(format!("no rating life, ISO 281 does not hold: {error}")),
+        // ISO 281:2007, 5.3: the life of heavier loads is the maker's to tell
+        Ok(life) => doubts.extend(life.reference_load_n.filter(|load| *load > 0.5 * life.load_rating_n).map(|load| {
+            format!("the reference load of {load:.0} N is above half the load rating: ISO 281 leaves such a life to the maker")
+        })),
     }
     let pressure = largest_pressure(taken);
     if pressure > STATIC_PRESSURE {

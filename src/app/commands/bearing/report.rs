@@ -216,7 +216,7 @@ fn life_table(life: &RatingLife) -> Table {
     let rows = [
         ("Basic dynamic load rating C", Some(life.load_rating_n), "N"),
         ("Dynamic equivalent reference load", life.reference_load_n, "N"),
-        ("Basic reference rating life L10r", life.life_mrev, "10^6 revolutions"),
+        ("Basic reference rating life L10r", life.life_mrev, "million revolutions"),
         ("The same at this speed", life.life_h, "h"),
     ];
     let rows = rows
@@ -268,7 +268,7 @@ fn curve_section(title: &str, axis: &str, unit: &str, points: &[CurvePoint]) -> 
             (tilts, tilting) = (tilts.curve(moved), tilting.curve(stiff));
         }
     }
-    let life = Plot::new("Rating life", x(), Axis::new("L10r", "10^6 revolutions").log())
+    let life = Plot::new("Rating life", x(), Axis::new("L10r", "million revolutions").log())
         .curve(over("L10r", &|point| point.life))
         .caption("Basic reference rating life (ISO/TS 16281). A gap is a point without life or without load.");
     let plots = [lengths, tilts, stiffness, tilting, life];

@@ -95,6 +95,13 @@ fn the_life_is_that_of_the_ball_loads() {
     assert_relative_eq!(hours, 1e6 * mrev / 60_000.0, max_relative = 1e-12);
     assert_relative_eq!(result.over_load[12].life.unwrap(), mrev, max_relative = 1e-6);
     assert!(result.over_load[24].life.unwrap() < 2e-3 * mrev);
+    // half the load rating is that of 8 million revolutions
+    for (thrust, told) in [("90e3", false), ("130e3", true)] {
+        let set = format!("shaft.loads=[{{force=[0,0,{thrust}]}}]");
+        let result = compute_bearing(&case(&[&set]), None, true, &Unwatched).unwrap();
+        assert_eq!(result.life.unwrap().life_mrev.unwrap() < 8.0, told);
+        assert_eq!(result.doubts.iter().any(|doubt| doubt.contains("above half the load rating")), told);
+    }
     // no steel, no life
     let hybrid =
         compute_bearing(&case(&["bearing.ball_material=\"silicon nitride\""]), None, true, &Unwatched).unwrap();

@@ -8,7 +8,7 @@ use crate::report::{Abscissa, Axis, Cell, Column, Curve, CurveStyle, Plot, Secti
 use crate::system::{BearingInPlace, SpatialBallLoad, SpatialEquilibrium, SpatialSetup};
 
 /// What a reader must know of a rating life.
-pub(crate) const LIFE_NOTE: &str = "C by ISO 281 from geometry and bearing steel; a maker's own C changes the life by the cube of the ratio. L10r by ISO/TS 16281 from these ball loads, for a load at rest against the outer ring: no unbalance, shoulders, lubricant or contamination.";
+pub(crate) const LIFE_NOTE: &str = "C by ISO 281 for bearing steel; grooves wider than 0.52 (outer 0.53) of the ball lower it. A maker's own C changes the life by the cube of the ratio. L10r by ISO/TS 16281 from these ball loads, for a load at rest against the outer ring: no unbalance, shoulders, lubricant or contamination.";
 
 /// Every bearing in a column: geometry, contact angle, loads, life and orders.
 pub(crate) fn bearings_table(scene: &MachineScene) -> Table {
@@ -56,7 +56,7 @@ pub(crate) fn bearings_table(scene: &MachineScene) -> Table {
             &number(|(own, _, balls)| 1e-6 * MachineScene::largest_pressure(own, balls), 4),
         ),
         row("Basic dynamic load rating C", "N", &life(|life| Some(life.load_rating_n))),
-        row("Rating life L10r under the loads at rest", "10^6 revolutions", &life(|life| life.life_mrev)),
+        row("Rating life L10r under the loads at rest", "million revolutions", &life(|life| life.life_mrev)),
         row("The same at the speed at the start", "h", &life(|life| life.life_h)),
         row("Outer race (BPFO)", "per turn", &number(|(_, orders, _)| orders.outer, 5)),
         row("Inner race (BPFI)", "per turn", &number(|(_, orders, _)| orders.inner, 5)),
