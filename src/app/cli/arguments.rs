@@ -84,7 +84,7 @@ Example: the bearing of a case under thrust beside its weight, at 3000 rpm
 Both rings are rigid. The shaft has three displacements and two tilts; its weight acts at the bearing's centre.
 
 Files:
-  bearing.json  equilibrium, balls, stiffness, orders; curves over load (0.1 to 10), speed (0 to 2) and preload
+  bearing.json  equilibrium, balls, stiffness, orders, rating life; curves over load (0.1 to 10), speed (0 to 2) and preload
   report.html   the same as tables and plots";
 
 const CHART_EXAMPLE: &str = "\

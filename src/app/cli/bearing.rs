@@ -75,6 +75,13 @@ fn summary(result: &BearingResult) -> String {
         .map(|row| without_round_off(*row).iter().map(|&value| digits(value)).collect())
         .collect();
     lines.extend(aligned(&rows));
+    if let Some(life) = &result.life {
+        let mut line = format!("rating: C {} N", digits(life.load_rating_n));
+        for (value, before, unit) in [(life.life_mrev, "L10r ", "million revolutions"), (life.life_h, "", "h")] {
+            line += &value.map(|value| format!(", {before}{} {unit}", significant(value, 4))).unwrap_or_default();
+        }
+        lines.push(line);
+    }
     let orders = result.orders;
     lines.push(format!(
         "orders at the mean contact angle of {}\u{b0}: BPFO {}, BPFI {}, BSF {}, FTF {}",

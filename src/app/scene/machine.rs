@@ -10,7 +10,7 @@ use crate::app::error::ComputeError;
 use crate::app::scene::RunModel;
 use crate::bearing::kinematics::DefectOrders;
 use crate::bearing::spatial::{AcrossGroove, GrooveDefect, SpatialBearing, Thrust};
-use crate::bearing::{Cage, Race};
+use crate::bearing::{BearingError, Cage, Race, RatingLife};
 use crate::fe::model::RingSeat;
 use crate::fe::reduction::frf::ModalDamping;
 use crate::numerics::Watch;
@@ -97,7 +97,14 @@ impl MachineScene {
             doubts.push("the equilibrium that the run starts from is not stable: the shaft leaves it at the smallest push; other loads, more preload or another bearing.first_ball_deg start from a stable one".to_owned());
         }
         doubts.extend(starts_in_damage(&setup, start));
-        Ok(Self { stage, setup, orders, damping: damping(case)?, start, equilibrium, doubts })
+        let mut scene = Self { stage, setup, orders, damping: damping(case)?, start, equilibrium, doubts };
+        for (own, balls) in scene.setup.bearings.iter().zip(&scene.equilibrium.bearings) {
+            if let Err(error) = scene.rating_life(own, balls) {
+                let name = if own.label.is_empty() { String::new() } else { format!("bearing {}: ", own.label) };
+                scene.doubts.push(format!("{name}no rating life, ISO 281 does not hold: {error}"));
+            }
+        }
+        Ok(scene)
     }
 
     /// The same with a bearing whose grooves are whole.
@@ -106,6 +113,29 @@ impl MachineScene {
         let own = &mut scene.setup.bearings[bearing];
         own.bearing = own.bearing.clone().without_defects();
         scene
+    }
+
+    /// Load rating of a bearing, and its life under the loads at rest and at the speed at the start.
+    ///
+    /// # Errors
+    /// [`BearingError`]: what the standard does not hold for.
+    pub(crate) fn rating_life(
+        &self,
+        own: &BearingInPlace,
+        balls: &[SpatialBallLoad],
+    ) -> Result<RatingLife, BearingError> {
+        let loads: Vec<[f64; 2]> = balls.iter().map(|ball| ball.load).collect();
+        own.bearing.rating_life(&loads, Self::largest_pressure(own, balls), own.cage.shaft().speed(self.start))
+    }
+
+    /// Largest pressure under the balls of a bearing, Pa.
+    pub(crate) fn largest_pressure(own: &BearingInPlace, balls: &[SpatialBallLoad]) -> f64 {
+        let pressures = balls.iter().flat_map(|ball| {
+            [Race::Inner, Race::Outer].into_iter().enumerate().map(|(index, race)| {
+                own.bearing.peak_pressure(race, ball.load[index], ball.contact_angle[index].unwrap_or(0.0))
+            })
+        });
+        pressures.fold(0.0, f64::max)
     }
 
     /// Modes linearised at the equilibrium, of all modes of the structure that are known.

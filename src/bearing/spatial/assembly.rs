@@ -11,6 +11,7 @@ use super::groove::{Grooves, Thrust};
 use super::ring::{InnerFrame, RingDisplacement};
 use crate::bearing::error::{BearingError, positive, refused};
 use crate::bearing::hertz::ContactPatch;
+use crate::bearing::life::{LoadRating, RatingLife};
 use crate::bearing::{BearingGeometry, ContactStiffness, Race};
 use nalgebra::{Matrix2, SMatrix, SVector, Vector2};
 use std::f64::consts::TAU;
@@ -178,6 +179,22 @@ impl SpatialBearing {
         let modulus = self.moduli[usize::from(race == Race::Outer)];
         let hertz = hertz_at(&self.geometry, race, angle.cos().max(0.0), modulus);
         hertz.map_or(0.0, |hertz| hertz.patch(load).peak_pressure)
+    }
+
+    /// Load rating, and life under the loads of all balls at both races (N), with the largest contact pressure (Pa), at a speed of the
+    /// shaft (rad/s). The nominal contact angle is the free one, or 0 for thrust both ways.
+    ///
+    /// # Errors
+    /// [`BearingError`]: what the standard does not hold for.
+    pub(crate) fn rating_life(
+        &self,
+        loads: &[[f64; 2]],
+        peak_pressure: f64,
+        speed: f64,
+    ) -> Result<RatingLife, BearingError> {
+        let free = self.geometry.free_contact_angle().filter(|_| self.thrust != Thrust::Both);
+        let rating = LoadRating::new(&self.geometry, free.unwrap_or(0.0), self.moduli)?;
+        Ok(rating.life(loads, peak_pressure, speed))
     }
 
     /// How far the inner groove's centres stand from the outer ones along the thrust, m, at an axial `displacement`; below zero the

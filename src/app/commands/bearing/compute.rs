@@ -4,9 +4,10 @@ use crate::app::case::{Case, Preload};
 use crate::app::commands::parts::without_round_off;
 use crate::app::error::ComputeError;
 use crate::app::scene::spatial::SpatialScene;
-use crate::bearing::BearingError;
 use crate::bearing::kinematics::{BallRow, DefectOrders};
+use crate::bearing::life::STATIC_PRESSURE;
 use crate::bearing::spatial::{BallState, RingDisplacement, ShaftEquilibrium, ShaftLoad, Thrust};
+use crate::bearing::{BearingError, RatingLife};
 use crate::numerics::Watch;
 use schemars::JsonSchema;
 use serde::Serialize;
@@ -20,10 +21,6 @@ pub(super) const FACTORS: [f64; 2] = [0.1, 10.0];
 
 /// Preloads of the curve: from this share of its middle to this multiple.
 const PRELOADS: [f64; 2] = [0.1, 4.0];
-
-/// Contact pressure of the basic static load rating of ball bearings, Pa (ISO 76:2006, 3.2): a permanent deformation of 1e-4 of the
-/// ball's diameter.
-const STATIC_PRESSURE: f64 = 4.2e9;
 
 /// Result of the command.
 #[derive(Debug, Clone)]
@@ -46,6 +43,8 @@ pub struct BearingResult {
     pub contact_angle: f64,
     /// Orders at that angle.
     pub orders: DefectOrders,
+    /// Load rating and rating life; `None` where the standard does not hold, which the doubts say.
+    pub life: Option<RatingLife>,
     /// Over the factor of the load.
     pub over_load: Vec<CurvePoint>,
     /// Over the speed, rpm; empty without speed.
@@ -58,7 +57,7 @@ pub struct BearingResult {
     pub doubts: Vec<String>,
 }
 
-/// Displacement and stiffness at one point of a curve; `None` where no equilibrium was found.
+/// Displacement, stiffness and life at one point of a curve; `None` where no equilibrium was found.
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct CurvePoint {
     /// Factor of the load, speed (rpm), or preload (N, or m).
@@ -67,6 +66,8 @@ pub struct CurvePoint {
     pub displacement: Option<[f64; 5]>,
     /// Stiffness along x, y, z (N/m) and against tilt about x, y (N m/rad).
     pub stiffness: Option<[f64; 5]>,
+    /// Basic reference rating life, millions of revolutions; `None` also where it is not given.
+    pub life: Option<f64>,
 }
 
 /// Finds where the shaft of a case rests in its bearing, at the highest speed of the case or at `rpm`.
@@ -105,6 +106,7 @@ pub fn compute_bearing(
         free_contact_angle: geometry.free_contact_angle(),
         contact_angle,
         orders: row.orders(),
+        life: equilibria.first().and_then(|taken| rating_life(&scene, taken).ok()),
         over_load: Vec::new(),
         over_speed: Vec::new(),
         over_preload: Vec::new(),
@@ -193,7 +195,7 @@ pub(super) fn curve(
     scene_at: impl Fn(f64) -> Result<(SpatialScene, ShaftLoad), ComputeError>,
 ) -> Result<Vec<CurvePoint>, ComputeError> {
     let mut points: Vec<CurvePoint> =
-        places.iter().map(|&at| CurvePoint { at, displacement: None, stiffness: None }).collect();
+        places.iter().map(|&at| CurvePoint { at, displacement: None, stiffness: None, life: None }).collect();
     let first = first.min(places.len());
     let (before, after) = points.split_at_mut(first);
     let follow = |points: &mut dyn Iterator<Item = &mut CurvePoint>| -> Result<(), ComputeError> {
@@ -207,12 +209,26 @@ pub(super) fn curve(
             let ([x, y, z], [a, b]) = (near.translation, near.tilt);
             point.displacement = Some([x, y, z, a, b]);
             point.stiffness = Some(std::array::from_fn(|axis| found.stiffness[axis][axis]));
+            point.life = rating_life(&scene, &found).ok().and_then(|life| life.life_mrev);
         }
         Ok(())
     };
     follow(&mut after.iter_mut())?;
     follow(&mut before.iter_mut().rev())?;
     Ok(points)
+}
+
+/// Load rating and rating life where the shaft rests.
+fn rating_life(scene: &SpatialScene, rest: &ShaftEquilibrium) -> Result<RatingLife, BearingError> {
+    let balls = rest.bearings.iter().flat_map(|state| &state.balls);
+    let loads: Vec<[f64; 2]> = balls.map(|ball| ball.load).collect();
+    scene.bearing.rating_life(&loads, largest_pressure(rest), scene.speed)
+}
+
+/// Largest contact pressure, Pa.
+fn largest_pressure(rest: &ShaftEquilibrium) -> f64 {
+    let patches = rest.bearings.iter().flat_map(|state| &state.balls).flat_map(|ball| &ball.patch);
+    patches.map(|patch| patch.peak_pressure).fold(0.0, f64::max)
 }
 
 /// Mean contact angle at the inner race, weighted by the loads; 0 without any.
@@ -263,11 +279,17 @@ pub(super) fn doubts(
         let others = if others == 1 { "another stable equilibrium" } else { "other stable equilibria" };
         doubts.push(format!("the load has {others}: the table shows all that were found"));
     }
-    let patches = taken.bearings.iter().flat_map(|state| &state.balls).flat_map(|ball| &ball.patch);
-    let pressure = patches.map(|patch| patch.peak_pressure).fold(0.0, f64::max);
+    match rating_life(scene, taken) {
+        Err(error) => doubts.push(format!("no rating life, ISO 281 does not hold: {error}")),
+        // ISO 281:2007, 5.3: the life of heavier loads is the maker's to tell
+        Ok(life) => doubts.extend(life.reference_load_n.filter(|load| *load > 0.5 * life.load_rating_n).map(|load| {
+            format!("the reference load of {load:.0} N is above half the load rating: ISO 281 leaves such a life to the maker")
+        })),
+    }
+    let pressure = largest_pressure(taken);
     if pressure > STATIC_PRESSURE {
         doubts.push(format!(
-            "the largest contact pressure is {:.0} MPa; above {:.0} MPa, the static limit of ISO 76, races are dented for good: reduce the load",
+            "the largest contact pressure is {:.0} MPa; above {:.0} MPa, the static limit of ISO 76, races are dented for good and no rating life is given: reduce the load",
             1e-6 * pressure,
             1e-6 * STATIC_PRESSURE
         ));

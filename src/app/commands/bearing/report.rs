@@ -3,6 +3,7 @@
 use super::compute::{BearingResult, CurvePoint, shown_degrees, shown_displacement};
 use crate::app::case::{Case, Purpose};
 use crate::app::commands::parts::{self, signed_report};
+use crate::bearing::RatingLife;
 use crate::bearing::spatial::{BallState, BearingState, ShaftEquilibrium};
 use crate::report::{
     Abscissa, Axis, Cell, Column, Curve, CurveStyle, Fact, Plot, Report, Section, Table, Verdict, counted, significant,
@@ -39,13 +40,20 @@ pub(crate) fn bearing_report(case: &Case, result: &BearingResult, command: &str)
             ),
             Verdict::None,
         );
+    if let Some(hours) = result.life.and_then(|life| life.life_h) {
+        report = report.headline("Rating life L10r", format!("{} h", significant(hours, 3)), Verdict::None);
+    }
     report = report.section(inputs(case, result));
     if let (Some(taken), Some(state)) = (taken, state) {
         let rest = Section::new("At rest")
             .table(displacement_table(result, taken))
             .table(stiffness_table(taken))
             .table(equilibria_table(&result.equilibria));
-        report = report.section(rest).section(balls_section(state)).section(orders_section(result));
+        report = report.section(rest).section(balls_section(state));
+        if let Some(life) = &result.life {
+            report = report.section(Section::new("Rating life").table(life_table(life)));
+        }
+        report = report.section(orders_section(result));
     }
     let curves = [
         ("Over the load", "Load over that of the case", "", &result.over_load),
@@ -203,6 +211,20 @@ fn balls_section(state: &BearingState) -> Section {
     section.table(Table::new("Balls", columns).rows(rows))
 }
 
+fn life_table(life: &RatingLife) -> Table {
+    let columns = [Column::text("Quantity"), Column::number("Value", ""), Column::text("Unit")];
+    let rows = [
+        ("Basic dynamic load rating C", Some(life.load_rating_n), "N"),
+        ("Dynamic equivalent reference load", life.reference_load_n, "N"),
+        ("Basic reference rating life L10r", life.life_mrev, "million revolutions"),
+        ("The same at this speed", life.life_h, "h"),
+    ];
+    let rows = rows
+        .into_iter()
+        .filter_map(|(name, value, unit)| Some([Cell::text(name), Cell::number(value?, 4), Cell::text(unit)]));
+    Table::new("Rating life", columns).rows(rows).footnote(parts::LIFE_NOTE)
+}
+
 fn orders_section(result: &BearingResult) -> Section {
     let orders = result.orders;
     let columns = [Column::text("Part"), Column::number("Order", "1/turn"), Column::number("Frequency", "Hz")];
@@ -246,6 +268,9 @@ fn curve_section(title: &str, axis: &str, unit: &str, points: &[CurvePoint]) -> 
             (tilts, tilting) = (tilts.curve(moved), tilting.curve(stiff));
         }
     }
-    let plots = [lengths, tilts, stiffness, tilting];
+    let life = Plot::new("Rating life", x(), Axis::new("L10r", "million revolutions").log())
+        .curve(over("L10r", &|point| point.life))
+        .caption("Basic reference rating life (ISO/TS 16281). A gap is a point without life or without load.");
+    let plots = [lengths, tilts, stiffness, tilting, life];
     plots.into_iter().filter(Plot::has_points).fold(Section::new(title), Section::plot)
 }

@@ -1,6 +1,7 @@
 //! What `bearing.json` says.
 
 use super::compute::{BearingResult, CurvePoint};
+use crate::bearing::RatingLife;
 use crate::bearing::kinematics::DefectOrders;
 use crate::bearing::spatial::{BallState, ShaftEquilibrium, Thrust};
 use schemars::JsonSchema;
@@ -30,6 +31,8 @@ pub struct BearingSummary<'a> {
     pub mean_contact_angle_deg: f64,
     /// Orders at that angle, per turn of the shaft.
     pub orders: DefectOrders,
+    /// Load rating and rating life; null where the standard does not hold, with a warning.
+    pub rating: Option<RatingLife>,
     /// Over the factor of the load.
     pub over_load: &'a [CurvePoint],
     /// Over the speed in rpm; empty without speed.
@@ -142,6 +145,7 @@ impl BearingResult {
             equilibria: self.equilibria.iter().map(EquilibriumSummary::from).collect(),
             mean_contact_angle_deg: self.contact_angle.to_degrees(),
             orders: self.orders,
+            rating: self.life,
             over_load: &self.over_load,
             over_speed: &self.over_speed,
             over_preload: &self.over_preload,

@@ -47,7 +47,7 @@ fn a_case_gives_the_published_angle_and_load() {
     );
     let report = bearing_report(&case, &result, "plummer bearing case.toml");
     let titles: Vec<&str> = report.sections.iter().map(|section| section.title.as_str()).collect();
-    assert_eq!(titles, ["Inputs", "At rest", "Balls", "Orders", "Over the load", "Over the preload"]);
+    assert_eq!(titles, ["Inputs", "At rest", "Balls", "Rating life", "Orders", "Over the load", "Over the preload"]);
 }
 
 #[test]
@@ -78,6 +78,38 @@ fn preload_speed_and_what_does_not_count() {
     // a load that pushes the rings apart cannot be computed
     let error = compute_bearing(&case(&["bearing.thrust=negative"]), None, true, &Unwatched).unwrap_err();
     assert!(!error.is_input(), "{error}");
+}
+
+/// By hand (NumPy) for 16 balls of 1679 N at 40 degrees: C 101 643 N, its inner grooves being wider than 0.52 D; 1441 million revolutions.
+#[test]
+fn the_life_is_that_of_the_ball_loads() {
+    let result = compute_bearing(&case(&[]), Some(1000.0), true, &Unwatched);
+    let life = compute_bearing(&case(&[]), None, false, &Unwatched).unwrap().life.unwrap();
+    assert_relative_eq!(life.load_rating_n, 101_643.0, max_relative = 1e-4);
+    // the load of a ball is 1679 N within 0.5 N
+    assert_relative_eq!(life.life_mrev.unwrap(), 1441.3, max_relative = 1e-3);
+    assert!(life.life_h.is_none());
+    // with speed hours, and at the curve's middle the same life
+    let result = result.unwrap();
+    let [mrev, hours] = [result.life.unwrap().life_mrev.unwrap(), result.life.unwrap().life_h.unwrap()];
+    assert_relative_eq!(hours, 1e6 * mrev / 60_000.0, max_relative = 1e-12);
+    assert_relative_eq!(result.over_load[12].life.unwrap(), mrev, max_relative = 1e-6);
+    assert!(result.over_load[24].life.unwrap() < 2e-3 * mrev);
+    // half the load rating is that of 8 million revolutions
+    for (thrust, told) in [("90e3", false), ("130e3", true)] {
+        let set = format!("shaft.loads=[{{force=[0,0,{thrust}]}}]");
+        let result = compute_bearing(&case(&[&set]), None, true, &Unwatched).unwrap();
+        assert_eq!(result.life.unwrap().life_mrev.unwrap() < 8.0, told);
+        assert_eq!(result.doubts.iter().any(|doubt| doubt.contains("above half the load rating")), told);
+    }
+    // no steel, no life
+    let hybrid =
+        compute_bearing(&case(&["bearing.ball_material=\"silicon nitride\""]), None, true, &Unwatched).unwrap();
+    assert!(hybrid.life.is_none() && hybrid.over_load.iter().all(|point| point.life.is_none()));
+    let said = hybrid.doubts.join("\n");
+    assert!(said.contains("no rating life, ISO 281 does not hold: effective modulus of the inner contact"), "{said}");
+    let page = bearing_report(&case(&[]), &hybrid, "plummer bearing case.toml").to_html().unwrap();
+    assert!(!page.contains("L10r"));
 }
 
 /// A deep groove bearing with tight grooves and play, loaded by these newtons downwards, its tilt held.

@@ -14,7 +14,7 @@ pub(crate) use bearing_table::bearing_table;
 pub(crate) use bearing_words::{NO_FAULT, bearing_fact, faults, not_shown};
 pub(crate) use case_words::{HousingSize, inputs, with_details, with_entries};
 pub(crate) use drawing::draw;
-pub(crate) use machine_tables::{assumptions_in_space, bearings_table, shaft_at_rest};
+pub(crate) use machine_tables::{LIFE_NOTE, assumptions_in_space, bearings_table, shaft_at_rest};
 pub(crate) use statics_report::{statics_section, without_round_off};
 pub use summary::{CheckSummary, SuperelementSummary};
 pub use tables::ExpectedMode;

@@ -108,10 +108,7 @@ pub(crate) fn bearing_part(machine: &Machine) -> Table {
             let scene = &machine.scene;
             parts::bearing_table(&scene.setup, &scene.contacts, Some(&scene.equilibrium))
         }
-        Machine::InSpace(machine) => {
-            let scene = &machine.scene;
-            parts::bearings_table(&scene.setup, &scene.orders, &scene.equilibrium)
-        }
+        Machine::InSpace(machine) => parts::bearings_table(&machine.scene),
     }
 }
 

@@ -4,6 +4,7 @@ use super::choice::{ChosenPart, ModelChoice};
 use super::{Machine, Recording, RunEnd, RunResult};
 use crate::app::commands::analyze::WindowAnalysis;
 use crate::app::commands::parts::SuperelementSummary;
+use crate::bearing::RatingLife;
 use crate::bearing::kinematics::DefectOrders;
 use crate::system::{
     BallLoad, BallsInertia, BearingInPlace, EnergyBalance, Equilibrium, SpatialBallLoad, SpatialEquilibrium,
@@ -153,6 +154,8 @@ pub struct BearingSummary<'a> {
     /// What its damage adds to a stretch of the signals, over the RMS without it, the largest sensor's; null where no stretch was
     /// compared.
     pub damage_share: Option<f64>,
+    /// Load rating, and rating life under the loads at rest and at the speed at the start; null where the standard does not hold.
+    pub rating: Option<RatingLife>,
     /// Azimuth of each ball, rad.
     pub ball_angle_rad: Vec<f64>,
     /// Contact angle of each ball at the inner and the outer race, rad; null without contact.
@@ -273,6 +276,7 @@ impl<'a> BearingSummary<'a> {
             place_m: own.place,
             defect_orders: scene.orders[index],
             damage_share: machine.damage[index],
+            rating: scene.rating_life(own, balls).ok(),
             ball_angle_rad: balls.iter().map(|ball| ball.azimuth).collect(),
             contact_angle_rad: balls.iter().map(|ball| ball.contact_angle).collect(),
             inner_force_n: balls.iter().map(|ball| ball.load[0]).collect(),

@@ -162,7 +162,7 @@ impl ChartScene {
     pub(super) fn bearing_table(&self) -> Table {
         match self {
             Self::InPlane(scene) => parts::bearing_table(&scene.setup, &scene.contacts, Some(&scene.equilibrium)),
-            Self::InSpace(scene) => parts::bearings_table(&scene.setup, &scene.orders, &scene.equilibrium),
+            Self::InSpace(scene) => parts::bearings_table(scene),
         }
     }
 
