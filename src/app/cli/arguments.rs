@@ -44,8 +44,9 @@ Examples: a case file beside a mesh, with the bearing that fits its bore; the be
 the catalogue, usual or a guess. Tables that the mesh says nothing of are templates, commented out. plummer modes FILE runs at
 once where the mesh allows it.
 
-The bore is the named surface (in a plane mesh the curve) that lies on a cylinder with the housing outside of it. Supports are
-groups named like a foot, base, bolt, clamp or support.";
+The bore is the named surface (in a plane mesh the curve) that lies on a cylinder with the housing outside of it. Several on one
+axis, named like bores, carry one shaft: the case has a bearing for each ([[bearings]]). Supports are groups named like a foot,
+base, bolt, clamp or support.";
 
 const INSPECT_EXAMPLE: &str = "\
 Example: a solid housing drawn in millimetres
