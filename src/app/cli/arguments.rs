@@ -703,6 +703,8 @@ mod tests {
             "plummer analyze a.csv --balls 9",
             "plummer analyze a.csv --orders outer=3.6 --bearing a.toml",
             "plummer analyze a.csv --rate 0",
+            "plummer analyze a.csv --bearing 6205 --contact-angle 90",
+            "plummer analyze a.csv --orders outer=3.6 --contact-angle 15",
             "plummer init",
             "plummer init a.msh --length-unit feet",
             "plummer init a.msh --list-bearings",
