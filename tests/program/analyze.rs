@@ -238,6 +238,8 @@ fn a_table_is_judged_by_the_dimensions_of_its_bearing() {
     assert_eq!(named(&found["windows"][0]), ["outer race"]);
     let order = found["defect_orders"]["outer"].as_f64().unwrap();
     assert!((order / (4.5 * (1.0 - 7.938 / 39.1)) - 1.0).abs() < 1e-12, "{order}");
+    let report = fs::read_to_string(folder.join("out/bench/report.html")).unwrap();
+    assert!(report.contains("9 balls of 7.938 mm on a circle of 39.10 mm (GMN, "));
     // under thrust, at a contact angle
     let found = json(&analyze(&[&named_bearing[..], &["--contact-angle", "15", "--json"]].concat()));
     let order = found["defect_orders"]["outer"].as_f64().unwrap();
@@ -245,8 +247,6 @@ fn a_table_is_judged_by_the_dimensions_of_its_bearing() {
     assert!((order / expected - 1.0).abs() < 1e-12, "{order}");
     let report = fs::read_to_string(folder.join("out/bench/report.html")).unwrap();
     assert!(report.contains(", at a contact angle of 15 degrees ("), "the assumption");
-    let report = fs::read_to_string(folder.join("out/bench/report.html")).unwrap();
-    assert!(report.contains("9 balls of 7.938 mm on a circle of 39.10 mm (GMN, "));
     assert!(report.contains("--bearing 6205"), "the command line");
     // a file of that name goes first
     fs::write(folder.join("6205"), "[bearing]\n").unwrap();
