@@ -1,4 +1,4 @@
-//! The machine whose signals are analysed: its bearing and the speed of its shaft.
+//! The bearing whose signals are analysed, and the speed of its shaft.
 //!
 //! Which bearing it is: how often its parts strike.
 
@@ -23,7 +23,7 @@ const GEOMETRY_ERROR: f64 = 0.01;
 const SAME: f64 = 0.01;
 
 /// A bearing and what is said of its shaft's speed.
-pub(super) struct Machine {
+pub(super) struct TurningBearing {
     /// `None` where nothing says the bearing.
     pub(super) orders: Option<FaultOrders>,
     /// The bearing of a case that says its motion too, and the relative error of its orders.
@@ -37,7 +37,7 @@ pub(super) struct Machine {
     pub(super) of_run: Option<(String, DamageShown)>,
 }
 
-impl Machine {
+impl TurningBearing {
     /// What was typed goes before what a case says. `case` is the one of a run's folder, or that of `--bearing`.
     ///
     /// # Errors

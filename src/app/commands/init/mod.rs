@@ -20,4 +20,4 @@ pub(crate) mod text;
 pub use draft::{Draft, DraftBearing};
 pub use found::DraftRequest;
 pub use seat::FoundCylinder;
-pub use summary::{BearingSummary, CatalogueResult, DraftResult, MaterialSummary, MaterialsResult};
+pub use summary::{CatalogueEntry, CatalogueResult, DraftResult, MaterialSummary, MaterialsResult};
