@@ -134,9 +134,14 @@ impl SpeedProfile {
 
     /// Largest magnitude of the angular speed from `start` to `end` (s), rad/s.
     pub(crate) fn fastest(&self, start: f64, end: f64) -> f64 {
+        self.speed(self.fastest_instant(start, end)).abs()
+    }
+
+    /// The first instant of that speed, s: `start`, a knot or `end`.
+    pub(crate) fn fastest_instant(&self, start: f64, end: f64) -> f64 {
         let knots = self.knot_times().filter(|&time| start < time && time < end);
-        let times = knots.chain([start, end]);
-        times.map(|time| self.speed(time).abs()).fold(0.0, f64::max)
+        let speed = |time: f64| self.speed(time).abs();
+        knots.chain([end]).fold(start, |best, time| if speed(time) > speed(best) { time } else { best })
     }
 
     /// Angle at `time` (s), rad, zero at time zero.

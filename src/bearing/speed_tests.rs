@@ -56,6 +56,10 @@ fn the_fastest_is_at_a_knot_or_an_end() {
         let fastest = profile.fastest(start, end);
         assert_relative_eq!(fastest, TAU * hz, max_relative = 1e-12, epsilon = 1e-9);
     }
+    // where it comes first
+    for (start, end, first) in [(-1.0, 3.0, 0.7), (1.3, 3.0, 2.0), (1.8, 1.9, 1.9), (2.5, 3.0, 2.5)] {
+        assert_relative_eq!(profile.fastest_instant(start, end), first);
+    }
 }
 
 proptest! {

@@ -240,6 +240,13 @@ fn a_table_is_judged_by_the_dimensions_of_its_bearing() {
     assert!((order / (4.5 * (1.0 - 7.938 / 39.1)) - 1.0).abs() < 1e-12, "{order}");
     let report = fs::read_to_string(folder.join("out/bench/report.html")).unwrap();
     assert!(report.contains("9 balls of 7.938 mm on a circle of 39.10 mm (GMN, "));
+    // under thrust, at a contact angle
+    let found = json(&analyze(&[&named_bearing[..], &["--contact-angle", "15", "--json"]].concat()));
+    let order = found["defect_orders"]["outer"].as_f64().unwrap();
+    let expected = 4.5 * (1.0 - 7.938 / 39.1 * 15_f64.to_radians().cos());
+    assert!((order / expected - 1.0).abs() < 1e-12, "{order}");
+    let report = fs::read_to_string(folder.join("out/bench/report.html")).unwrap();
+    assert!(report.contains(", at a contact angle of 15 degrees ("), "the assumption");
     assert!(report.contains("--bearing 6205"), "the command line");
     // a file of that name goes first
     fs::write(folder.join("6205"), "[bearing]\n").unwrap();
@@ -294,6 +301,10 @@ fn a_table_is_judged_by_the_dimensions_of_its_bearing() {
         (
             analyze(&["--speed", "25"]),
             "error: bench.csv: nothing says which bearing it is\nhelp: --bearing CASE.toml or NAME (6205), or --balls N --pitch-diameter D --ball-diameter D [--contact-angle DEG], or --orders outer=..,inner=.. (or BPFO=.., BPFI=..)\n",
+        ),
+        (
+            analyze(&["--speed", "25", "--contact-angle", "15"]),
+            "error: --contact-angle: found 15 beside no bearing, expected --balls or a bearing of the catalogue (--bearing 6205)\nhelp: leave it out, or add --bearing NAME or --balls, --pitch-diameter and --ball-diameter\n",
         ),
         (
             analyze(&["--speed", "25", "--bearing", "no/6205"]),

@@ -77,8 +77,12 @@ fn every_mesh_makes_a_case_that_loads() {
         assert_eq!(fs::canonicalize(found).unwrap(), fs::canonicalize(&mesh).unwrap());
         let whole = Case::from_source(Source { path: file.clone(), text: switched_on(&text), set: Vec::new() });
         let whole = whole.unwrap_or_else(|error| panic!("{name}: {error}\n{}", switched_on(&text)));
-        starts_beside_its_dent(whole.bearing.as_ref().unwrap(), &name);
-        assert!(whole.ring.is_some_and(|ring| ring.tie.is_some()), "{name}");
+        let seats = whole.seats();
+        assert!(!seats.is_empty(), "{name}");
+        for seat in seats {
+            starts_beside_its_dent(seat.bearing.unwrap(), &name);
+            assert!(seat.ring.tie.is_some(), "{name}");
+        }
         // the same mesh, the same file
         init(&folder, &[mesh.to_str().unwrap(), "--force"]);
         assert_eq!(fs::read_to_string(&file).unwrap(), text, "{name}");
@@ -112,6 +116,48 @@ fn modes_run_on_the_shipped_housings() {
         assert_eq!(modes["rigid_modes"], rigid, "{name}: {hz:?}");
         let off = (hz[rigid] / first - 1.0).abs();
         assert!(off < within, "{name}: {hz:?}");
+    }
+}
+
+/// Bores on one axis carry one shaft: a bearing each, which hold each other, a sensor each, and the shaft between them.
+#[test]
+fn several_bores_are_a_bearing_each() {
+    let folder = scratch("init-several");
+    for (name, labels, bearings) in [
+        ("motor", ["drive bore", "rear bore"], [Some("6205"), Some("6203")]),
+        ("spindle_block", ["front bore", "rear bore"], [None, None]),
+    ] {
+        let mesh = root().join(format!("meshes/{name}.msh"));
+        let found = init(&folder, &[mesh.to_str().unwrap(), "--length-unit", "mm"]);
+        for (own, (label, bearing)) in found["bearings"].as_array().unwrap().iter().zip(labels.iter().zip(bearings)) {
+            assert_eq!((own["label"].as_str(), own["bearing"].as_str()), (Some(*label), bearing), "{name}");
+        }
+        assert_eq!(found["other_holes"], serde_json::json!([]), "{name}");
+        let case = Case::load(folder.join(format!("{name}.toml")), &[]).unwrap();
+        let seats = case.seats();
+        assert_eq!(seats.iter().map(|seat| seat.label.as_str()).collect::<Vec<_>>(), labels, "{name}");
+        let standards: Vec<Option<&str>> =
+            seats.iter().map(|seat| seat.bearing.and_then(|own| own.name.as_deref())).collect();
+        assert_eq!(standards, bearings, "{name}");
+        assert_eq!(case.sensors.len(), 2, "{name}");
+        assert_eq!(case.ready_for(Purpose::Run).is_ok(), name == "motor", "{name}");
+    }
+    // a bar of 17 mm, half as long again as the bearings lie apart: 195 mm
+    let case = Case::load(folder.join("motor.toml"), &[]).unwrap();
+    let shaft = case.shaft.as_ref().unwrap();
+    let mass = 7850.0 * 0.25 * std::f64::consts::PI * 17e-3_f64.powi(2) * 195e-3;
+    assert!((shaft.mass / mass - 1.0).abs() < 2e-3, "{shaft:?}");
+    assert!((shaft.transverse_inertia.unwrap() / (mass * 195e-3_f64.powi(2) / 12.0) - 1.0).abs() < 1e-2, "{shaft:?}");
+    assert!((shaft.centre.unwrap() - 65e-3).abs() < 1e-9, "{shaft:?}");
+    let modes = plummer(&folder, &["modes", "spindle_block.toml", "--json", "--threads", "1"]);
+    assert_eq!(modes.status.code(), Some(0), "{}", errors(&modes));
+    let modes: Value = serde_json::from_slice(&modes.stdout).unwrap();
+    assert_eq!(modes["rigid_modes"], 0);
+    // a bearing that fits one bore alone goes there
+    for (asked, both) in [("6304", ["6304", "6203"]), ("6203", ["6205", "6203"])] {
+        let mesh = root().join("meshes/motor.msh");
+        let found = init(&folder, &[mesh.to_str().unwrap(), "--bearing", asked, "--force"]);
+        assert_eq!([0, 1].map(|place| found["bearings"][place]["bearing"].as_str().unwrap()), both);
     }
 }
 

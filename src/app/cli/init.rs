@@ -6,7 +6,7 @@ use super::output::json;
 use super::{CliError, InitArguments, Options, Outcome, write_atomic};
 use crate::app::case::{BUILT_IN_MATERIALS, bearing_help};
 use crate::app::commands::init::{
-    BearingSummary, CatalogueResult, Draft, DraftRequest, DraftResult, MaterialSummary, MaterialsResult,
+    CatalogueEntry, CatalogueResult, Draft, DraftRequest, DraftResult, MaterialSummary, MaterialsResult,
 };
 use crate::app::commands::result::VERSION;
 use crate::app::shell_word::shell_word;
@@ -82,7 +82,7 @@ fn case_file(mesh: &Path, options: &Options) -> Result<PathBuf, CliError> {
 
 /// Lists the bearings of the catalogue.
 fn list() -> Result<Outcome, CliError> {
-    let entry = |bearing| BearingSummary::of(bearing, catalogue_orders(bearing).ok());
+    let entry = |bearing| CatalogueEntry::of(bearing, catalogue_orders(bearing, 0.0).ok());
     Ok(Outcome {
         summary: table(),
         result: json(&CatalogueResult {
@@ -134,7 +134,7 @@ fn table() -> String {
             [bearing.bore, bearing.outer_diameter, bearing.width, bearing.ball_diameter, bearing.pitch_diameter]
                 .map(|length| 1e3 * length);
         let star = if bearing.pitch_published { ' ' } else { '*' };
-        let orders = catalogue_orders(bearing)
+        let orders = catalogue_orders(bearing, 0.0)
             .map_or([f64::NAN; 4], |orders| [orders.outer, orders.inner, orders.ball_spin, orders.cage]);
         let orders = orders.map(|order| format!(" {order:>6.4}")).concat();
         // writing to a String cannot fail

@@ -23,9 +23,6 @@ use crate::system::{
 };
 use nalgebra::Vector2;
 
-/// Instants among which the highest speed of a run is looked for.
-const INSTANTS: u32 = 64;
-
 /// How far from one line centres of bearings may be, m, and how far from parallel their axes, rad: what is written in six digits.
 const OFF_LINE: f64 = 1e-7;
 const OFF_AXIS: f64 = 1e-6;
@@ -400,11 +397,7 @@ fn turn_by_the_angles_in_force(
     stage: &CoupledStructure,
     setup: &mut SpatialSetup,
 ) -> Result<Vec<DefectOrders>, ComputeError> {
-    let shaft = setup.bearings[0].cage.shaft().clone();
-    let at = |k: u32| start + (end - start) * f64::from(k) / f64::from(INSTANTS);
-    let instants = (0..=INSTANTS).map(at);
-    let speed = |time: f64| shaft.motion(time).speed.abs();
-    let fastest = instants.fold(start, |best, t| if speed(t) > speed(best) { t } else { best });
+    let fastest = setup.bearings[0].cage.shaft().fastest_instant(start, end);
     let condition = SpatialCondition::at(setup, fastest);
     let equilibrium = SpatialEquilibrium::find(&stage.structure, setup, &condition)?;
     let mut orders = Vec::with_capacity(setup.bearings.len());

@@ -67,6 +67,10 @@ struct Means {
     columns: [SparseMatrix; 2],
     /// Motions of the interior by unit interface coordinates, `E C` [interior x interface], C which of them the means are.
     lift: SparseMatrix,
+    /// `K E C` and `M E C` [interior x interface].
+    lifted: [SparseMatrix; 2],
+    /// `W^T C` [interior x interface].
+    weights: SparseMatrix,
 }
 
 impl Interior {
@@ -121,31 +125,25 @@ impl Interior {
         self.product(x, 1, &|x| self.problem.mass_times(x))
     }
 
-    /// `A X` by that of `P^T A P`, which alone is kept: with `x = P x_h + (0, z)`, rows h of `A (0, z)` are A_hd z, and
-    /// `A P x_h` is what `P^T A P x_h` is less `G^T` times its rows d.
+    /// `A X` by that of `P^T A P`, which alone is kept: with `x = E c + P y_h`, c its means, `A E c` is known, and `A P y_h` is what
+    /// `P^T A P y_h` is less `G^T` times its rows d. Without E the followers would move by c times the number of nodes, and of a rigid
+    /// motion, which costs nothing, the round-off of that would be left.
     fn product(&self, x: &DenseMatrix, which: usize, inside: &dyn Fn(&DenseMatrix) -> DenseMatrix) -> DenseMatrix {
         let Some(means) = &self.held else {
             return inside(x);
         };
-        let x_h = rows_of(x, &means.free);
-        let apart = rows_of(x, &means.followers) - transpose_times_dense(&means.follow, &x_h);
-        let columns = &means.columns[which];
+        let c = transpose_times_dense(&means.weights, x);
+        let y_h = rows_of(&(x - sparse_times_dense(&means.lift, &c)), &means.free);
         // rows d, by symmetry
-        let of_d = transpose_times_dense(columns, x);
-        let mut of_h = inside(&x_h);
-        let inner = transpose_times_dense(columns, &means.spread(&x_h));
-        of_h -= sparse_times_dense(&means.follow, &inner);
-        let across = sparse_times_dense(columns, &apart);
-        let mut y = DenseMatrix::zeros(x.nrows(), x.ncols());
+        let of_d = transpose_times_dense(&means.columns[which], &means.spread(&y_h));
+        let of_h = inside(&y_h) - sparse_times_dense(&means.follow, &of_d);
+        let mut product = sparse_times_dense(&means.lifted[which], &c);
         for column in 0..x.ncols() {
-            for (row, &place) in means.free.iter().enumerate() {
-                y[(place, column)] = of_h[(row, column)] + across[(place, column)];
-            }
-            for (row, &place) in means.followers.iter().enumerate() {
-                y[(place, column)] = of_d[(row, column)];
+            for (places, rows) in [(&means.free, &of_h), (&means.followers, &of_d)] {
+                places.iter().zip(rows.col_as_slice(column)).for_each(|(&place, row)| product[(place, column)] += row);
             }
         }
-        y
+        product
     }
 
     /// Motions with the interface held, of forces `R` [interior x k]: `K X + W^T lambda = R`, `W X = 0`.
@@ -241,13 +239,24 @@ impl Means {
                 (0..p).for_each(|follower| follow.add(place, follower, -g[(follower, column)]));
             }
         }
-        let mut lift = TripletBuilder::new(i.len(), partition.tie.cols());
+        let interface = partition.tie.cols();
+        let mut lift = TripletBuilder::new(i.len(), interface);
+        let mut of_taken = TripletBuilder::new(taken.len(), interface);
+        let mut weights = TripletBuilder::new(i.len(), interface);
         for (row, &place) in inside.iter().enumerate() {
-            mean.coordinates.iter().enumerate().for_each(|(column, &to)| lift.add(place, to, e[(column, row)]));
+            for (column, &to) in mean.coordinates.iter().enumerate() {
+                lift.add(place, to, e[(column, row)]);
+                of_taken.add(row, to, e[(column, row)]);
+                weights.add(place, to, w[(row, column)]);
+            }
         }
+        let of_taken = of_taken.build();
+        let both = [&matrices.stiffness, &matrices.mass];
+        let lifted = both.map(|a| (&submatrix(a, i, &taken) * &of_taken).to_csc());
         let of_followers: Vec<usize> = followers.iter().map(|&place| i[place]).collect();
-        let columns = [&matrices.stiffness, &matrices.mass].map(|a| submatrix(a, i, &of_followers));
-        Ok(Self { free, followers, follow: Arc::new(follow.build()), columns, lift: lift.build() })
+        let columns = both.map(|a| submatrix(a, i, &of_followers));
+        let (follow, lift, weights) = (Arc::new(follow.build()), lift.build(), weights.build());
+        Ok(Self { free, followers, follow, columns, lift, lifted, weights })
     }
 
     /// What the followers add to stiffness (0) or mass (1).

@@ -12,7 +12,14 @@
 //! ```
 //!
 //! Interface coordinates that are means `W u` of the interior (see [`MeanTie`](crate::fe::model::MeanTie)) are held with the
-//! interface: their constraint modes are the motions of least strain energy with `W Psi = 1`, and `k_bb` has what holds them.
+//! interface: their constraint modes are the motions of least strain energy with `W Psi = 1`, and `k_bb` has what holds them,
+//!
+//! ```text
+//! k_bb = T^T K_bb T + (K_ib T)^T Psi + Psi^T (K_ib T + K_ii Psi)
+//! ```
+//!
+//! whose error is of second order in that of Psi. The reaction of the means alone would have it of first order, and of a free body,
+//! whose rigid motions cost nothing, there is nothing else.
 
 use super::ReductionError;
 use super::interior::Interior;
@@ -28,6 +35,10 @@ use faer::{MatMut, MatRef};
 /// Interface coordinates that are handled at once: their products with the interior stay small beside the constraint
 /// modes.
 const BLOCK: usize = 32;
+
+/// Diagonal of k_bb, over what it is summed from, that is its round-off: a body that nothing holds along a coordinate has none. The
+/// sums of ten thousand nodes leave 1e-15.
+const ROUND_OFF: f64 = 1e-13;
 
 /// A housing split into interface and interior, with the factor of its interior.
 #[derive(Debug, Clone)]
@@ -122,25 +133,37 @@ impl Substructure {
             }
             self.constraint_modes.subcols_mut(first, width).copy_from(&modes);
             let mut k = transpose_times_dense(stiffness_ib, &modes);
+            // m_bb is symmetric, as k_bb: rows above the diagonal block stand for the columns beside it
+            let known = self.constraint_modes.subcols(0, first + width);
             if lift.is_some() {
                 // the interior is in equilibrium but for what holds the means
                 let mut holding = self.interior.stiffness_times(&modes);
                 add_columns(&mut holding, stiffness_ib, first);
-                k += self.interior.lifted(&holding);
+                k = known.transpose() * &holding + k.subrows(0, first + width);
+                add_mirrored(&mut self.stiffness, first, &k);
+            } else {
+                add_block(self.stiffness.subcols_mut(first, width), k.as_ref());
             }
-            add_block(self.stiffness.subcols_mut(first, width), k.as_ref());
             let mut follow = self.interior.mass_times(&modes);
             add_columns(&mut follow, &self.mass_ib, first);
-            // m_bb is symmetric: rows above the diagonal block stand for the columns beside it
-            let known = self.constraint_modes.subcols(0, first + width);
             let mut m = known.transpose() * &follow;
             m += transpose_times_dense(&self.mass_ib, &modes).subrows(0, first + width);
-            add_block(self.mass.submatrix_mut(0, first, first + width, width), m.as_ref());
-            add_block(self.mass.submatrix_mut(first, 0, width, first), m.subrows(0, first).transpose());
+            add_mirrored(&mut self.mass, first, &m);
         }
         self.stiffness = symmetric(&self.stiffness);
         self.mass = symmetric(&self.mass);
+        self.drop_round_off();
         Ok(())
+    }
+
+    /// Makes rows and columns of k_bb zero whose diagonal is round-off: k_bb is semidefinite, so that `k_ij^2 <= k_ii k_jj`.
+    fn drop_round_off(&mut self) {
+        for row in 0..self.made_of.len() {
+            if self.stiffness[(row, row)].abs() <= ROUND_OFF * self.made_of[row] {
+                self.stiffness.row_mut(row).fill(0.0);
+                self.stiffness.col_mut(row).fill(0.0);
+            }
+        }
     }
 
     /// Number of interface coordinates.
@@ -190,6 +213,13 @@ impl Substructure {
         watch.stage("fixed-interface modes");
         self.interior.lowest(count, &|part| watch.fraction(part))
     }
+}
+
+/// Adds columns from `first` on down to the diagonal's block, and what they stand for beside it.
+fn add_mirrored(to: &mut DenseMatrix, first: usize, columns: &DenseMatrix) {
+    let width = columns.ncols();
+    add_block(to.submatrix_mut(0, first, first + width, width), columns.as_ref());
+    add_block(to.submatrix_mut(first, 0, width, first), columns.subrows(0, first).transpose());
 }
 
 fn add_block(mut to: MatMut<'_, f64>, block: MatRef<'_, f64>) {

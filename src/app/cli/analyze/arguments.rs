@@ -34,9 +34,9 @@ pub struct AnalyzeArguments {
     /// Diameter of a ball
     #[arg(long, allow_hyphen_values = true, value_name = "D", value_parser = positive, requires = "balls")]
     pub ball_diameter: Option<f64>,
-    /// Contact angle in degrees
-    #[arg(long, allow_hyphen_values = true, value_name = "DEG", default_value_t = 0.0, requires = "balls")]
-    pub contact_angle: f64,
+    /// Contact angle in degrees, 0 to below 90, of --balls or of a bearing of the catalogue (default: 0). A case has its own
+    #[arg(long, allow_hyphen_values = true, value_name = "DEG", value_parser = contact_angle, conflicts_with = "orders")]
+    pub contact_angle: Option<f64>,
     /// Events per revolution of the shaft: some of outer=3.58,inner=5.42,ball=4.71,cage=0.398, or of BPFO, BPFI, BSF and FTF.
     /// BSF is the spin of a ball. A flaw on the ball strikes twice a spin: ball = 2 x BSF
     #[arg(long, allow_hyphen_values = true, value_name = "NAME=ORDER,...", value_parser = GivenOrders::parse, conflicts_with_all = ["bearing", "balls"])]
@@ -103,6 +103,11 @@ fn positive(text: &str) -> Result<f64, String> {
     number(text).filter(|&value| value > 0.0).ok_or_else(|| format!("expected a number above 0, found \"{text}\""))
 }
 
+fn contact_angle(text: &str) -> Result<f64, String> {
+    let degrees = number(text).filter(|value| (0.0..90.0).contains(value));
+    degrees.ok_or_else(|| format!("expected a number of degrees from 0 to below 90, found \"{text}\""))
+}
+
 fn pair(text: &str) -> Option<[f64; 2]> {
     let (first, second) = text.split_once(':')?;
     Some([number(first)?, number(second)?])
@@ -139,6 +144,8 @@ mod tests {
             (window("2.8:2.2").unwrap_err(), "expected FROM:TO in s, FROM below TO, found \"2.8:2.2\""),
             (band("0:5").unwrap_err(), "expected FROM:TO in Hz, 0 < FROM < TO, or kurtogram, found \"0:5\""),
             (positive("nan").unwrap_err(), "expected a number above 0, found \"nan\""),
+            (contact_angle("90").unwrap_err(), "expected a number of degrees from 0 to below 90, found \"90\""),
+            (contact_angle("-1").unwrap_err(), "expected a number of degrees from 0 to below 90, found \"-1\""),
         ] {
             assert_eq!(message, expected);
         }

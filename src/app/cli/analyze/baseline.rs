@@ -44,7 +44,7 @@ impl Baseline {
         };
         let mut source = Source::open(&own, &path, Unnamed::Every, options)?;
         if asked.baseline_speed.is_none() {
-            source.machine.own_first = true;
+            source.turning.own_first = true;
         }
         Ok(Some(Self { path, source, window: asked.baseline_window }))
     }

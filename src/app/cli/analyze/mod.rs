@@ -2,19 +2,19 @@
 
 mod arguments;
 mod baseline;
-mod machine;
 mod orders;
 mod single;
 mod source;
 mod survey;
+mod turning_bearing;
 
 use std::io;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
 pub use arguments::AnalyzeArguments;
-pub(super) use machine::catalogue_orders;
 pub use orders::{GivenOrders, GivenSpeed};
+pub(super) use turning_bearing::catalogue_orders;
 
 use super::earlier_results::{left_in, result_of};
 use super::report::ReportFiles;

@@ -3,7 +3,7 @@
 //! Signals of a file, and all that nothing says of them.
 
 use super::AnalyzeArguments;
-use super::machine::{Machine, Named, in_the_plane, named_bearing};
+use super::turning_bearing::{Named, TurningBearing, in_the_plane, named_bearing};
 use crate::app::case::{Case, EnvelopeBand, Purpose, ReportDetails};
 use crate::app::cli::earlier_results::{Wanted, case_of_results};
 use crate::app::cli::output::extend_new;
@@ -39,7 +39,7 @@ pub(super) struct Source {
     pub(super) doubts: Vec<String>,
     /// Named channels that are not there, with the error.
     pub(super) absent: Vec<(String, CliError)>,
-    pub(super) machine: Machine,
+    pub(super) turning: TurningBearing,
 }
 
 impl Source {
@@ -75,13 +75,13 @@ impl Source {
             None => ReportDetails::of_arguments(&options.set)?,
         };
         let run = Some(input).filter(|_| is_run);
-        let machine = Machine::of(asked, run, case.as_ref(), options)?;
+        let turning = TurningBearing::of(asked, run, case.as_ref(), options)?;
         let read = read(&file, request, unnamed).map_err(ComputeError::from)?;
         let mut missing = read.missing;
-        if machine.orders.is_none() {
+        if turning.orders.is_none() {
             missing.push(Missing::Bearing);
         }
-        if machine.speed_for(read.signals.first()).is_none() {
+        if turning.speed_for(read.signals.first()).is_none() {
             missing.push(Missing::Speed);
         }
         match (read.first, missing.as_slice()) {
@@ -99,17 +99,17 @@ impl Source {
         }
         let of_baseline = asked.baseline_rate.is_some() && asked.baseline.as_deref() == Some(input);
         let option = if of_baseline { "--baseline-rate" } else { "--rate" };
-        let settings = settings(asked, case.as_ref().filter(|_| is_run), &machine);
+        let settings = settings(asked, case.as_ref().filter(|_| is_run), &turning);
         let mut assumptions = read.left_out;
         let mut doubts = Vec::new();
         for signal in &signals {
-            let typed = machine.overruled(signal, asked.rate.map(|rate| (option, rate)));
+            let typed = turning.overruled(signal, asked.rate.map(|rate| (option, rate)));
             let flaws = flaws(signal, &settings.windows);
             extend_new(&mut doubts, typed.into_iter().chain(flaws).chain(signal.doubts.clone()));
-            extend_new(&mut assumptions, machine.motion(signal).into_iter().flat_map(|(_, notes)| notes));
+            extend_new(&mut assumptions, turning.motion(signal).into_iter().flat_map(|(_, notes)| notes));
         }
         signals.iter().try_for_each(|signal| below_half_the_rate(asked, input, signal))?;
-        Ok(Self { signals, settings, case, is_run, details, assumptions, doubts, absent: read.absent, machine })
+        Ok(Self { signals, settings, case, is_run, details, assumptions, doubts, absent: read.absent, turning })
     }
 
     /// The case whose run it is, if it is one.
@@ -125,7 +125,7 @@ impl Source {
     /// A row of the inputs for each signal of this file: file, signal, length, rate, unit, mean speed.
     pub(super) fn input_rows(&self, input: &str) -> Vec<[Cell; 6]> {
         let row = |signal: &MeasuredSignal| {
-            let (series, motion) = (&signal.series, self.machine.motion(signal));
+            let (series, motion) = (&signal.series, self.turning.motion(signal));
             [
                 Cell::text(input),
                 Cell::text(&signal.name),
@@ -145,7 +145,7 @@ impl Source {
             let unit =
                 if series.unit().is_empty() { String::new() } else { format!(" in {}", pretty_unit(series.unit())) };
             let length = given(series.values().len() as f64 * series.step_s());
-            let motion = self.machine.motion(signal).filter(|_| !self.is_run);
+            let motion = self.turning.motion(signal).filter(|_| !self.is_run);
             let speed = motion.map(|(kinematics, _)| kinematics.mean_speed_hz(series.span()));
             let speed =
                 speed.map_or_else(String::new, |hz| format!("; mean shaft speed {}, as given", shaft_speed(hz, 4)));
@@ -162,7 +162,7 @@ impl Source {
             (Some(case), false) => {
                 case.all_bearings().into_iter().map(|(_, bearing)| parts::bearing_fact(bearing)).collect()
             }
-            (None, _) => self.machine.catalogue.iter().map(|words| Fact::new("Bearing", words)).collect(),
+            (None, _) => self.turning.catalogue.iter().map(|words| Fact::new("Bearing", words)).collect(),
         }
     }
 
@@ -196,7 +196,7 @@ impl Source {
     /// # Errors
     /// [`CliError`]: a signal without a speed, where another states one; a shaft that turns more than once in two samples.
     pub(super) fn kinematics(&self, input: &Path, signal: &MeasuredSignal) -> Result<Kinematics<'_>, CliError> {
-        let motion = self.machine.motion(signal);
+        let motion = self.turning.motion(signal);
         let (kinematics, _) = motion.ok_or_else(|| nothing_says(input, &[Missing::Speed]))?;
         let (series, speed_hz) = (&signal.series, kinematics.mean_speed_hz(signal.series.span()));
         if speed_hz.is_nan() || speed_hz >= 0.5 * series.rate_hz() {
@@ -277,8 +277,8 @@ fn flaws_of(name: &str, series: &TimeSeries) -> Vec<String> {
 }
 
 /// Filter and windows: what was typed, else what the run's case says.
-fn settings(asked: &AnalyzeArguments, case: Option<&Case>, machine: &Machine) -> AnalysisSettings {
-    let of_case = |case: &Case| match &machine.of_run {
+fn settings(asked: &AnalyzeArguments, case: Option<&Case>, turning: &TurningBearing) -> AnalysisSettings {
+    let of_case = |case: &Case| match &turning.of_run {
         None => AnalysisSettings::of(case, case.bearing.as_ref(), DamageShown::InPlane),
         Some((label, damage)) => {
             let own = case.seats().into_iter().find(|seat| seat.label == *label);

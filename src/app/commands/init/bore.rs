@@ -14,7 +14,7 @@ use std::collections::HashSet;
 const BORE_TURN: f64 = 0.75;
 
 /// Parts of names that a bore has.
-const NAMES: [&str; 6] = ["bore", "bearing", "seat", "hub", "bohrung", "lager"];
+pub(super) const NAMES: [&str; 6] = ["bore", "bearing", "seat", "hub", "bohrung", "lager"];
 
 /// A group that lies on a cylinder.
 #[derive(Debug, Clone, PartialEq)]

@@ -5,12 +5,15 @@
 //! rest is from the catalogue, usual values and guesses. The file says of every value which of these it is. What could not be told
 //! is there as a template, commented out. The same mesh gives the same file.
 //!
-//! **Limitations**: one bore, one bearing; links between parts that share no nodes are left to the user.
+//! Several bores on one axis are a bearing each, on one shaft.
+//!
+//! **Limitations**: links between parts that share no nodes are left to the user.
 
 use schemars::JsonSchema;
 use serde::Serialize;
 
-use super::found::{DraftRequest, FoundCylinder, find};
+use super::found::{DraftRequest, find};
+use super::seat::{FoundCylinder, Seat};
 use super::text::{case_text, findings};
 use crate::app::commands::Inspection;
 use crate::app::error::ComputeError;
@@ -23,12 +26,15 @@ use crate::numerics::units::LengthUnit;
 pub struct Draft {
     /// Unit that the file says.
     pub length_unit: LengthUnit,
-    /// The bore that the ring is tied to; `None`: none was found.
+    /// The bore that the ring, or the first of several, is tied to; `None`: none was found.
     pub bore: Option<FoundCylinder>,
     /// Other round holes, best first.
     pub other_holes: Vec<FoundCylinder>,
-    /// Designation of the bearing; `None`: none of the catalogue fits.
+    /// Designation of the bearing, or the first of several; `None`: none of the catalogue fits.
     pub bearing: Option<&'static str>,
+    /// Several bearings of one shaft, in the order of the file; absent for one.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub bearings: Vec<DraftBearing>,
     /// Groups that are parts, with their materials.
     pub parts: Vec<[String; 2]>,
     /// Groups that are held.
@@ -38,6 +44,27 @@ pub struct Draft {
     /// The case file.
     #[serde(skip)]
     pub text: String,
+}
+
+/// One of several bearings of a shaft.
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+pub struct DraftBearing {
+    /// What the case calls it: the group of its bore.
+    pub label: String,
+    /// Designation; `None`: none of the catalogue fits.
+    pub bearing: Option<&'static str>,
+    /// Place along the axis from the first bore's centre.
+    pub place_m: f64,
+    /// Its bore.
+    pub bore: FoundCylinder,
+}
+
+impl DraftBearing {
+    fn of(seat: &Seat) -> Option<Self> {
+        let bore = seat.bore.clone()?;
+        let bearing = seat.bearing.map(|numbers| numbers.bearing.name);
+        Some(Self { label: bore.group.clone(), bearing, place_m: seat.place, bore })
+    }
 }
 
 impl Draft {
@@ -57,11 +84,16 @@ impl Draft {
         let parts = found.groups.parts.iter();
         let draft = Self {
             length_unit: found.unit,
-            bearing: found.bearing.map(|numbers| numbers.bearing.name),
+            bearing: found.seat.bearing.map(|numbers| numbers.bearing.name),
             parts: parts.map(|part| [part.group.clone(), part.material.clone()]).collect(),
             findings: read_from(&inspection).into_iter().chain(findings(&found)).collect(),
             text,
-            bore: found.bore,
+            bearings: if found.further.is_empty() {
+                Vec::new()
+            } else {
+                found.seats().filter_map(DraftBearing::of).collect()
+            },
+            bore: found.seat.bore,
             other_holes: found.holes,
             supports: found.groups.supports.into_iter().map(|support| support.group).collect(),
         };

@@ -3,7 +3,6 @@
 use super::{bore, page};
 use std::path::Path;
 
-use schemars::JsonSchema;
 use serde::Serialize;
 
 use super::bore::{Candidate, Cylinders};
@@ -11,13 +10,15 @@ use super::entities::{Offered, offer};
 use super::groups::{Groups, PartGuess};
 use super::partly::PartlyHole;
 use super::scene::{BearingNumbers, Directions, RingNumbers, UnitFrom, unit_of};
+use super::seat::{FoundCylinder, Seat, common_axis, further_bores, scaled};
 use crate::app::case::{BUILT_IN_MATERIALS, FIT, other_size};
 use crate::app::commands::Inspection;
 use crate::app::commands::inspect::size;
 use crate::app::error::ComputeError;
 use crate::bearing::catalogue::CatalogueBearing;
-use crate::fe::mesh::{DeckMaterial, Mesh, MeshError, Rim};
+use crate::fe::mesh::{ConsistentUnits, DeckMaterial, Mesh, MeshError, Rim};
 use crate::numerics::units::LengthUnit;
+use nalgebra::Vector3;
 
 /// What is asked for.
 #[derive(Debug, Clone, Copy, Serialize)]
@@ -37,27 +38,6 @@ pub struct DraftRequest<'a> {
     pub straighten: bool,
 }
 
-/// A group that lies on a cylinder, in m.
-#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
-pub struct FoundCylinder {
-    /// Name of the group.
-    pub group: String,
-    /// Unit vector along the axis.
-    pub axis: [f64; 3],
-    /// Point on the axis in the middle of its length.
-    pub centre_m: [f64; 3],
-    /// Radius.
-    pub radius_m: f64,
-    /// Extent along the axis.
-    pub length_m: f64,
-    /// Root of the mean squared distance of the faces' corners from it.
-    pub rms_m: f64,
-    /// Largest distance of a node from it.
-    pub farthest_m: f64,
-    /// Share of the full turn that it covers, 0 to 1.
-    pub turn: f64,
-}
-
 /// Everything that the text is written from; lengths in m.
 #[derive(Serialize)]
 pub(crate) struct Found<'a> {
@@ -68,7 +48,9 @@ pub(crate) struct Found<'a> {
     pub(crate) unit: LengthUnit,
     pub(crate) unit_from: UnitFrom,
     pub(crate) groups: Groups,
-    pub(crate) bore: Option<FoundCylinder>,
+    /// The first bore with its bearing, and the others on its axis.
+    pub(crate) seat: Seat,
+    pub(crate) further: Vec<Seat>,
     pub(crate) holes: Vec<FoundCylinder>,
     pub(crate) outside: Vec<FoundCylinder>,
     /// Groups of which a part is a hole: that hole, its share of the group, and whether the rest is a shoulder.
@@ -78,18 +60,19 @@ pub(crate) struct Found<'a> {
     /// CAD surfaces that were looked at for a bore.
     pub(crate) surfaces: usize,
     pub(crate) directions: Directions,
-    /// Place of a sensor.
-    pub(crate) spot: Option<[f64; 3]>,
-    /// The bearing that fits, and others of its outer diameter.
-    pub(crate) bearing: Option<BearingNumbers>,
-    pub(crate) same_size: Vec<&'static str>,
-    pub(crate) ring: RingNumbers,
     /// Connected parts of the mesh.
     pub(crate) bodies: usize,
     /// Materials of the mesh's file.
     pub(crate) deck_materials: Vec<DeckMaterial>,
     /// Mass of the parts by their materials, kg; of a plane mesh, as thick as the file says.
     pub(crate) mass: f64,
+}
+
+impl Found<'_> {
+    /// Every bore with its bearing; the template where no bore was found.
+    pub(crate) fn seats(&self) -> impl Iterator<Item = &Seat> {
+        std::iter::once(&self.seat).chain(&self.further)
+    }
 }
 
 pub(crate) fn find<'a>(
@@ -118,8 +101,15 @@ pub(crate) fn find<'a>(
         ));
     }
     let rim = Rim::of(mesh, dimension);
-    let (Cylinders { bore, holes, outside, partly }, Offered { flat, surfaces }) = offer(mesh, dimension, &rim);
-    let mut groups = Groups::of(mesh, dimension, bore.as_ref().map(|bore| bore.group.as_str()));
+    let (Cylinders { bore, mut holes, outside, partly }, Offered { flat, surfaces }) = offer(mesh, dimension, &rim);
+    let longest = extent.into_iter().fold(0.0, f64::max);
+    let radius = bore.as_ref().map(|bore| bore.cylinder.radius);
+    let units = ConsistentUnits::of(&mesh.notes.materials);
+    let (unit, unit_from) = unit_of(request.length_unit, longest, radius, request.bearing, units);
+    let metres = unit.to_metres();
+    let further = bore.as_ref().map_or_else(Vec::new, |bore| further_bores(bore, &mut holes, metres));
+    let bores: Vec<&str> = bore.iter().chain(&further).map(|bore| bore.group.as_str()).collect();
+    let mut groups = Groups::of(mesh, dimension, &bores);
     if bore.is_some() {
         groups.hold_flat(&flat, dimension);
     }
@@ -139,26 +129,37 @@ pub(crate) fn find<'a>(
             ),
         ));
     }
-    let longest = extent.into_iter().fold(0.0, f64::max);
-    let radius = bore.as_ref().map(|bore| bore.cylinder.radius);
-    let (unit, unit_from) = unit_of(request.length_unit, longest, radius, request.bearing, groups.units);
-    let metres = unit.to_metres();
-    let directions = Directions::of(bore.as_ref().map_or([0.0, 0.0, 1.0], |bore| bore.cylinder.axis));
+    let axis = bore.as_ref().map_or([0.0, 0.0, 1.0], |bore| match further.as_slice() {
+        [] => bore.cylinder.axis,
+        further => common_axis(&bore.cylinder, further),
+    });
+    let directions = Directions::of(axis);
     let middle = inventory.bounding_box;
     let middle = [0, 1, 2].map(|axis| 0.5 * (middle.min[axis] + middle.max[axis]));
-    let centre = bore.as_ref().map_or(middle, |bore| bore.cylinder.centre);
     let seen = [directions.up, directions.axis];
-    let spot = bore::spot(mesh, &rim, centre, radius.unwrap_or(0.0), seen, &groups.supports);
+    let spot = |bore: Option<&Candidate>| {
+        let (centre, radius) = bore.map_or((middle, 0.0), |bore| (bore.cylinder.centre, bore.cylinder.radius));
+        let point = bore::spot(mesh, &rim, centre, radius, seen, &groups.supports);
+        point.map(|point| point.map(|part| part * metres))
+    };
+    let spots: Vec<_> = match &bore {
+        Some(first) => [first].into_iter().chain(&further).map(|bore| spot(Some(bore))).collect(),
+        None => vec![spot(None)],
+    };
     let in_metres = |list: Vec<Candidate>| list.into_iter().map(|found| scaled(found, metres)).collect();
-    let bore = bore.map(|bore| scaled(bore, metres));
-    // no bore: a template for the smallest bearing
-    let diameter = bore.as_ref().map_or(0.0, |bore| 2.0 * bore.radius_m);
-    let (bearing, same_size) = fitting(&request, bore.as_ref())?;
-    let usual = CatalogueBearing::nearest(diameter).first().map(|(bearing, _)| *bearing);
-    let of = bearing.or(request.bearing).or(usual).unwrap_or(&CatalogueBearing::all()[0]);
-    let diameter = if diameter > 0.0 { diameter } else { of.outer_diameter };
-    let ring = RingNumbers::of(of, diameter);
-    let thickness = if plane { ring.of.width * ring.scale } else { 1.0 };
+    let bores: Vec<FoundCylinder> = in_metres(bore.into_iter().chain(further).collect());
+    refuse_other_size(&request, &bores)?;
+    let mut bores = bores.into_iter();
+    let mut spots = spots.into_iter();
+    let seat = seat(&request, bores.next(), spots.next().flatten());
+    let (start, axis) = (Vector3::from(seat.centre), Vector3::from(directions.axis));
+    let further = bores.zip(spots).map(|(bore, spot)| {
+        let found = self::seat(&request, Some(bore), spot);
+        let place = axis.dot(&(Vector3::from(found.centre) - start));
+        Seat { centre: (start + axis * place).into(), place, ..found }
+    });
+    let further: Vec<Seat> = further.collect();
+    let thickness = if plane { seat.ring.of.width * seat.ring.scale } else { 1.0 };
     let of_part = |part: &PartGuess| {
         let size = size(mesh, mesh.body(&part.group).ok()?.elements.iter().copied());
         let known = BUILT_IN_MATERIALS.iter().find(|known| known.name == part.material);
@@ -176,7 +177,8 @@ pub(crate) fn find<'a>(
         unit,
         unit_from,
         groups,
-        bore,
+        seat,
+        further,
         holes: in_metres(holes),
         outside: in_metres(outside),
         partly: partly
@@ -188,50 +190,44 @@ pub(crate) fn find<'a>(
         flat,
         surfaces,
         directions,
-        spot: spot.map(|point| point.map(|part| part * metres)),
-        bearing: bearing.map(BearingNumbers::of),
-        same_size,
-        ring,
         bodies: inventory.parts.len(),
     })
 }
 
-pub(crate) fn scaled(found: Candidate, metres: f64) -> FoundCylinder {
-    let cylinder = found.cylinder;
-    FoundCylinder {
-        group: found.group,
-        axis: cylinder.axis,
-        centre_m: cylinder.centre.map(|part| part * metres),
-        radius_m: cylinder.radius * metres,
-        length_m: cylinder.length * metres,
-        rms_m: cylinder.rms * metres,
-        farthest_m: cylinder.farthest * metres,
-        turn: cylinder.turn,
+/// Refuses a bearing that was asked for and fits no bore.
+fn refuse_other_size(request: &DraftRequest<'_>, bores: &[FoundCylinder]) -> Result<(), ComputeError> {
+    let Some(bearing) = request.bearing else { return Ok(()) };
+    let rules = bores.iter().map(|bore| {
+        let named = format!("the bore {}", page::quoted(&bore.group));
+        other_size(bearing, &named, [bore.radius_m; 2], "--length-unit")
+    });
+    let rules: Option<Vec<_>> = rules.collect();
+    match rules.and_then(|rules| rules.into_iter().next()) {
+        None => Ok(()),
+        Some(rule) => Err(ComputeError::Input { what: format!("--bearing: {rule}"), help: rule.help() }),
     }
 }
 
-/// The bearing asked for, which must fit, else the nearest of the catalogue if it does: of several of one outer diameter that of the
-/// series 62. And the names of all of that diameter.
-pub(crate) fn fitting(
-    request: &DraftRequest<'_>,
-    bore: Option<&FoundCylinder>,
-) -> Result<(Option<&'static CatalogueBearing>, Vec<&'static str>), ComputeError> {
-    let Some(bore) = bore else {
-        return Ok((None, Vec::new()));
-    };
-    if let Some(bearing) = request.bearing {
-        let named = format!("the bore {}", page::quoted(&bore.group));
-        return match other_size(bearing, &named, [bore.radius_m; 2], "--length-unit") {
-            None => Ok((Some(bearing), Vec::new())),
-            Some(rule) => Err(ComputeError::Input { what: format!("--bearing: {rule}"), help: rule.help() }),
-        };
-    }
-    let fits: Vec<&CatalogueBearing> = CatalogueBearing::nearest(2.0 * bore.radius_m)
-        .into_iter()
-        .filter(|(_, off)| off.abs() <= FIT)
-        .map(|(bearing, _)| bearing)
-        .collect();
+/// A bore with the bearing asked for, else the nearest of the catalogue if one fits, of several of one outer diameter that of the
+/// series 62; and with the names of all of that diameter. Without a bore it is a template for the smallest bearing.
+fn seat(request: &DraftRequest<'_>, bore: Option<FoundCylinder>, spot: Option<[f64; 3]>) -> Seat {
+    let diameter = bore.as_ref().map_or(0.0, |bore| 2.0 * bore.radius_m);
+    let nearest = CatalogueBearing::nearest(diameter);
+    let usual = nearest.first().map(|(bearing, _)| *bearing);
+    let asked = request.bearing.filter(|bearing| other_size(bearing, "", [0.5 * diameter; 2], "").is_none());
+    let all: Vec<&CatalogueBearing> =
+        nearest.into_iter().filter(|(_, off)| off.abs() <= FIT).map(|(bearing, _)| bearing).collect();
+    let all = if bore.is_some() && asked.is_none() { all } else { Vec::new() };
     let common = |bearing: &&&CatalogueBearing| bearing.name.len() == 4 && bearing.name.starts_with("62");
-    let chosen = fits.iter().find(common).or(fits.first()).copied();
-    Ok((chosen, fits.iter().map(|bearing| bearing.name).collect()))
+    let bearing = asked.or(all.iter().find(common).or(all.first()).copied());
+    let of = bearing.or(request.bearing).or(usual).unwrap_or(&CatalogueBearing::all()[0]);
+    Seat {
+        centre: bore.as_ref().map_or([0.0; 3], |bore| bore.centre_m),
+        place: 0.0,
+        bearing: bearing.map(BearingNumbers::of),
+        same_size: all.iter().map(|bearing| bearing.name).collect(),
+        ring: RingNumbers::of(of, if diameter > 0.0 { diameter } else { of.outer_diameter }),
+        spot,
+        bore,
+    }
 }

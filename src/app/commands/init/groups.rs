@@ -108,7 +108,7 @@ pub(crate) struct Groups {
     pub at_bore: Vec<String>,
     /// A point where a sensor may stand.
     pub sensor: Option<String>,
-    /// The rest, but for the bore.
+    /// The rest, but for the bores.
     pub others: Vec<Other>,
 }
 
@@ -120,8 +120,8 @@ pub(crate) fn usable(mesh: &Mesh, group: &PhysicalGroup) -> bool {
 }
 
 impl Groups {
-    /// Looks at every group; `bore` is the one that the ring sits in.
-    pub(crate) fn of(mesh: &Mesh, dimension: usize, bore: Option<&str>) -> Self {
+    /// Looks at every group; `bores` are those that rings sit in.
+    pub(crate) fn of(mesh: &Mesh, dimension: usize, bores: &[&str]) -> Self {
         let units = ConsistentUnits::of(&mesh.notes.materials);
         let mut found = Self { units, ..Self::default() };
         let (mut taken, mut taken_materials) = (HashSet::new(), HashSet::new());
@@ -163,12 +163,12 @@ impl Groups {
         let order: HashMap<&str, usize> = bodies.map(|(place, own)| (own.name.as_str(), place)).collect();
         found.parts.sort_by_key(|part| order.get(part.group.as_str()));
         found.without_part = mesh.element_ids(dimension).filter(|id| !taken.contains(id)).count();
-        let bore = bore.and_then(|name| mesh.group(name).ok());
+        let bores: Vec<&PhysicalGroup> = bores.iter().filter_map(|name| mesh.group(name).ok()).collect();
         found.held_by = if mesh.notes.supports.is_empty() { BY_NAME } else { BY_FILE };
         let held: HashMap<&str, [bool; 3]> =
             mesh.notes.supports.iter().map(|held| (held.group.as_str(), held.fixed)).collect();
         for group in &mesh.groups {
-            if bore.is_some_and(|bore| std::ptr::eq(bore, group)) {
+            if bores.iter().any(|bore| std::ptr::eq(*bore, group)) {
                 continue;
             }
             let name = group.name.as_str();
@@ -176,7 +176,7 @@ impl Groups {
                 found.others.push(Other { group: name.to_owned(), dimension: group.dimension, note });
             };
             // both lists are sorted
-            let touches_bore = bore.is_some_and(|bore| {
+            let touches_bore = bores.iter().any(|bore| {
                 let mut nodes = group.nodes.iter();
                 nodes.any(|node| bore.nodes.binary_search(node).is_ok())
             });

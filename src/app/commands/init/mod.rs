@@ -10,11 +10,14 @@ mod partly;
 pub(crate) mod pit;
 pub(crate) mod run_text;
 pub(crate) mod scene;
+pub(crate) mod seat;
+mod shaft;
 pub(crate) mod summary;
 #[cfg(test)]
 mod tests;
 pub(crate) mod text;
 
-pub use draft::Draft;
-pub use found::{DraftRequest, FoundCylinder};
-pub use summary::{BearingSummary, CatalogueResult, DraftResult, MaterialSummary, MaterialsResult};
+pub use draft::{Draft, DraftBearing};
+pub use found::DraftRequest;
+pub use seat::FoundCylinder;
+pub use summary::{CatalogueEntry, CatalogueResult, DraftResult, MaterialSummary, MaterialsResult};

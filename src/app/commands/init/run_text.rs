@@ -2,6 +2,7 @@
 
 use super::found::Found;
 use super::scene::SPEED_HZ;
+use super::seat::Seat;
 use crate::bearing::kinematics::BallRow;
 use crate::signal::diagnosis::{Fault, FaultOrders};
 use serde::Serialize;
@@ -25,9 +26,18 @@ pub(crate) struct Window {
 }
 
 impl Window {
-    /// Long enough for the lines of the outer race, which the draft dents.
+    /// Long enough for the lines of every outer race, one of which the draft dents.
     pub(crate) fn of(found: &Found<'_>) -> Self {
-        let bearing = found.bearing.map_or(found.ring.of, |numbers| numbers.bearing);
+        let first = Self::of_seat(&found.seat);
+        found
+            .further
+            .iter()
+            .map(Self::of_seat)
+            .fold(first, |longest, own| if own.turns > longest.turns { own } else { longest })
+    }
+
+    fn of_seat(seat: &Seat) -> Self {
+        let bearing = seat.numbers().bearing;
         let row = BallRow::new(bearing.balls, bearing.ball_diameter, bearing.pitch_diameter, 0.0).ok();
         let orders = row.map(|row| row.orders());
         let exact = orders.and_then(|orders| FaultOrders::of(&orders, 0.0).ok());

@@ -7,7 +7,6 @@ use crate::fe::mesh::ConsistentUnits;
 use crate::numerics::units::LengthUnit;
 use nalgebra::Vector3;
 use serde::Serialize;
-use std::f64::consts::PI;
 
 /// Speed of the shaft (Hz): a machine on a motor of four poles at 50 Hz mains, without its slip.
 pub(crate) const SPEED_HZ: f64 = 25.0;
@@ -15,8 +14,8 @@ pub(crate) const SPEED_HZ: f64 = 25.0;
 /// Balance quality G 6.3 of ISO 21940-11 (machines in general): eccentricity times angular speed, m/s.
 pub(crate) const BALANCE: f64 = 6.3e-3;
 
-/// The shaft is as thick as the bearing's bore, and so many times longer on each bearing's share. A guess.
-pub(crate) const SHAFT_LENGTHS: f64 = 10.0;
+/// Preload over the smallest bearing's bore, N/m: 5 N a millimetre, the least that makers recommend for small electric motors.
+pub(crate) const PRELOAD: f64 = 5e3;
 
 /// Density of shaft and balls, kg/m^3: steel.
 pub(crate) const STEEL: f64 = 7850.0;
@@ -62,12 +61,6 @@ impl RingNumbers {
             },
         }
     }
-}
-
-/// Mass (kg) and unbalance (kg m) of a shaft of this diameter (m).
-pub(crate) fn shaft(diameter: f64) -> [f64; 2] {
-    let mass = STEEL * 0.25 * PI * diameter.powi(3) * SHAFT_LENGTHS;
-    [mass, mass * BALANCE / (2.0 * PI * SPEED_HZ)]
 }
 
 /// Longest side (in the mesh's unit) below which the unit is taken to be the metre: housings of ball bearings are longer than

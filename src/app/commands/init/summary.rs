@@ -32,7 +32,7 @@ pub struct CatalogueResult {
     /// "init".
     pub command: &'static str,
     /// The bearings, by series and bore.
-    pub bearings: Vec<BearingSummary>,
+    pub bearings: Vec<CatalogueEntry>,
 }
 
 /// The materials that a case may name: what `--list-materials` prints.
@@ -73,7 +73,7 @@ impl From<&BuiltInMaterial> for MaterialSummary {
 
 /// A bearing of the catalogue.
 #[derive(Debug, Clone, Serialize, JsonSchema)]
-pub struct BearingSummary {
+pub struct CatalogueEntry {
     /// What its maker publishes.
     #[serde(flatten)]
     pub bearing: CatalogueBearing,
@@ -91,7 +91,7 @@ pub struct BearingSummary {
     pub source: &'static str,
 }
 
-impl BearingSummary {
+impl CatalogueEntry {
     /// Of a bearing and its orders.
     #[must_use]
     pub(crate) fn of(bearing: &CatalogueBearing, orders: Option<DefectOrders>) -> Self {

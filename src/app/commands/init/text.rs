@@ -1,18 +1,20 @@
 //! The case file's text, and the findings in sentences.
 
-use super::found::{Found, FoundCylinder};
+use super::found::Found;
 use super::groups::{BY_FILE, BY_NAME, BY_SHAPE};
 use super::page::{ORIGIN, list, number, numbers, page, quoted};
 use super::pit::Pit;
 use super::run_text::Window;
-use super::scene::{BALANCE, BearingNumbers, Directions, SHAFT_LENGTHS, SPEED_HZ, UnitFrom, shaft};
+use super::scene::{BALANCE, BearingNumbers, Directions, PRELOAD, SPEED_HZ, UnitFrom};
+use super::seat::{FoundCylinder, Seat};
+use super::shaft::{SHAFT_LENGTHS, ShaftNumbers};
 use crate::app::scene::size_doubt;
 use crate::fe::mesh::DeckMaterial;
 use crate::numerics::units::LengthUnit;
 use crate::report::{mass_in_words, size_in_words};
 use minijinja::syntax::SyntaxConfig;
 use minijinja::value::Serde;
-use minijinja::{Environment, UndefinedBehavior, context};
+use minijinja::{Environment, UndefinedBehavior, Value, context};
 
 /// Distance of nodes from a cylinder, over its radius, that is not worth a number.
 const ROUND_OFF: f64 = 1e-9;
@@ -70,8 +72,9 @@ fn names(cylinders: &[FoundCylinder]) -> String {
 
 /// Why the bore is the bore, or why there is none.
 fn bore_sentence(found: &Found<'_>) -> String {
-    let mut sentence = match &found.bore {
-        Some(bore) => format!("Group {} is {}.", quoted(&bore.group), describe(bore, found.plane)),
+    let bore = |bore: &FoundCylinder| format!("Group {} is {}.", quoted(&bore.group), describe(bore, found.plane));
+    let mut sentence = match &found.seat.bore {
+        Some(first) => bore(first),
         None => format!(
             "No group is a {} hole within 1 % of its radius: no bore is known.{}",
             if found.plane { "round" } else { "cylindrical" },
@@ -82,7 +85,10 @@ fn bore_sentence(found: &Found<'_>) -> String {
             }
         ),
     };
-    if found.bore.is_none() && found.surfaces > 0 {
+    for further in found.further.iter().filter_map(|seat| seat.bore.as_ref()) {
+        sentence.push_str(&format!(" On the same axis: {}", bore(further)));
+    }
+    if found.seat.bore.is_none() && found.surfaces > 0 {
         let what = if found.plane { "curves" } else { "surfaces" };
         sentence.push_str(&format!(
             " None of the CAD {what} ({}) is one all round either. A case may name some together, group = \"{what} 12, 13\"; plummer inspect lists them.",
@@ -102,7 +108,7 @@ fn bore_sentence(found: &Found<'_>) -> String {
     }
     if !found.holes.is_empty() {
         sentence.push_str(&format!(" Other round holes: {}.", names(&found.holes)));
-    } else if found.bore.is_some() {
+    } else if found.seat.bore.is_some() {
         sentence.push_str(" No other group is a round hole.");
     }
     if !found.outside.is_empty() {
@@ -117,14 +123,23 @@ pub(crate) fn findings(found: &Found<'_>) -> Vec<String> {
     let sides = found.extent.map(|side| side * found.unit.to_metres());
     lines.extend(size_doubt(sides, found.unit, "--length-unit").map(|told| format!("warning: {told}")));
     lines.push(bore_sentence(found));
-    lines.push(match (&found.bearing, &found.bore) {
-        (Some(numbers), _) => format!("Bearing {}.", bearing_origin(found, numbers)),
-        (None, Some(bore)) => format!(
-            "No bearing of the catalogue has an outer diameter within 1 % of the bore's, {} mm: [bearing] is a template.",
-            number(2e3 * bore.radius_m, 6)
-        ),
+    lines.extend(found.seats().map(|seat| match (&seat.bearing, &seat.bore) {
+        (Some(numbers), Some(bore)) if !found.further.is_empty() => {
+            format!("In {}: bearing {}.", quoted(&bore.group), bearing_origin(found, seat, numbers))
+        }
+        (Some(numbers), _) => format!("Bearing {}.", bearing_origin(found, seat, numbers)),
+        (None, Some(bore)) => {
+            let (of, table) = match found.further.is_empty() {
+                true => ("the bore".to_owned(), "[bearing]"),
+                false => (quoted(&bore.group), "its [bearings.bearing]"),
+            };
+            format!(
+                "No bearing of the catalogue has an outer diameter within 1 % of {of}'s, {} mm: {table} is a template.",
+                number(2e3 * bore.radius_m, 6)
+            )
+        }
         (None, None) => "[ring] and [bearing] are templates.".to_owned(),
-    });
+    }));
     let parts = found.groups.parts.iter().map(|part| {
         let sure = match part.from {
             "mesh" => "by the file",
@@ -250,7 +265,7 @@ fn others(found: &Found<'_>) -> Vec<String> {
     others.collect()
 }
 
-fn bearing_origin(found: &Found<'_>, numbers: &BearingNumbers) -> String {
+fn bearing_origin(found: &Found<'_>, seat: &Seat, numbers: &BearingNumbers) -> String {
     let bearing = numbers.bearing;
     let mut words = format!(
         "{} ({} x {} x {} mm), {}",
@@ -260,9 +275,9 @@ fn bearing_origin(found: &Found<'_>, numbers: &BearingNumbers) -> String {
         number(1e3 * bearing.width, 6),
         bearing.source.citation()
     );
-    if found.request.bearing.is_none() {
+    if found.request.bearing.is_none_or(|asked| asked.name != bearing.name) {
         words.push_str("; guess: its outer diameter is that of the bore within 1 %");
-        let others = found.same_size.iter().filter(|name| **name != bearing.name);
+        let others = seat.same_size.iter().filter(|name| **name != bearing.name);
         let others: Vec<String> = others.map(|name| (*name).to_owned()).collect();
         if !others.is_empty() {
             words.push_str(&format!(", as is that of {}", list(&others)));
@@ -271,35 +286,58 @@ fn bearing_origin(found: &Found<'_>, numbers: &BearingNumbers) -> String {
     words
 }
 
+/// What the template says of one seat.
+fn seat_values(found: &Found<'_>, seat: &Seat) -> Value {
+    let numbers = seat.numbers();
+    let bearing = numbers.bearing;
+    // face to face, as the shims of a motor push the outer rings towards each other; others than the outermost hold no thrust
+    let places = || found.seats().map(|seat| seat.place);
+    let [low, high] = [places().fold(0.0, f64::min), places().fold(0.0, f64::max)];
+    let thrust = if seat.place <= low {
+        "negative"
+    } else if seat.place >= high {
+        "positive"
+    } else {
+        "both"
+    };
+    context! {
+        found => Serde(seat),
+        numbers => Serde(numbers),
+        citation => bearing.source.citation(),
+        races => Serde([bearing.inner_race_diameter(), bearing.outer_race_diameter()]),
+        origin => bearing_origin(found, seat, &numbers),
+        scale => seat.scale(),
+        thrust,
+        preload => PRELOAD * found.seats().map(Seat::shaft_bore).fold(f64::INFINITY, f64::min),
+        pit => Serde(Pit::of(&numbers, seat.scale())),
+    }
+}
+
 /// The case file: the template with what was found in it.
 ///
 /// # Errors
 /// Nothing that depends on the mesh: a template that does not fit its values.
 pub(crate) fn case_text(found: &Found<'_>) -> Result<String, minijinja::Error> {
-    let of_bearing = found.bearing.unwrap_or_else(|| BearingNumbers::of(found.ring.of));
-    let bearing = of_bearing.bearing;
-    let shaft_bore = found.bearing.map_or(found.ring.of.bore * found.ring.scale, |_| bearing.bore);
-    let [mass, unbalance] = shaft(shaft_bore);
     // a group one dimension below the housing that may be held
     let below = if found.plane { 1 } else { 2 };
     let surface = found.groups.others.iter().find(|other| other.dimension == below && other.note.is_none());
     let values = context! {
         found => Serde(found),
-        numbers => Serde(of_bearing),
-        citation => bearing.source.citation(),
-        races => Serde([bearing.inner_race_diameter(), bearing.outer_race_diameter()]),
+        seats => found.seats().map(|seat| seat_values(found, seat)).collect::<Vec<_>>(),
+        several => !found.further.is_empty(),
         unit_origin => unit_origin(found),
         bore_sentence => bore_sentence(found),
-        bearing_origin => bearing_origin(found, &of_bearing),
         others => others(found),
         surface => surface.map_or("GROUP", |other| &other.group),
         // a billionth of a length is round-off of the fit
         round_off => 1e-9,
         spot_round_off => 1e-9 * found.unit.to_metres() * found.extent.into_iter().fold(0.0, f64::max),
-        shaft => context! { bore => shaft_bore, mass, unbalance, lengths => SHAFT_LENGTHS, balance => BALANCE },
+        shaft => Serde(ShaftNumbers::of(found)),
+        lengths => SHAFT_LENGTHS,
+        balance => BALANCE,
+        preload_rate => PRELOAD,
         speed_hz => SPEED_HZ,
         window => Serde(Window::of(found)),
-        pit => Serde(Pit::of(&of_bearing, if found.bearing.is_some() { 1.0 } else { found.ring.scale })),
     };
     let mut environment = Environment::new();
     environment.add_filter("quoted", |text: String| quoted(&text));

@@ -26,6 +26,6 @@ pub(crate) use report::{bearing_part, cost, run_report};
 pub use scalogram::SensorScalogram;
 pub use simulation::{RunEnd, Simulation, Span};
 pub use summary::{
-    BearingSummary, EnergySummary, EquilibriumSummary, ExplainSummary, ModelSummary, OtherEquilibrium, RunSummary,
+    EnergySummary, EquilibriumSummary, ExplainSummary, ModelSummary, OtherEquilibrium, RunBearingSummary, RunSummary,
     ShaftSummary,
 };

@@ -58,7 +58,7 @@ pub struct RunSummary<'a> {
     pub shaft: Option<ShaftSummary>,
     /// Its bearings.
     #[serde(skip_serializing_if = "Vec::is_empty")]
-    pub bearings: Vec<BearingSummary<'a>>,
+    pub bearings: Vec<RunBearingSummary<'a>>,
     /// Analysed windows of all sensors.
     pub windows: &'a [WindowAnalysis],
     /// The superelement in the housing's place, if there is one.
@@ -144,7 +144,7 @@ pub struct ShaftSummary {
 
 /// A bearing of a shaft in space.
 #[derive(Debug, Clone, Serialize, JsonSchema)]
-pub struct BearingSummary<'a> {
+pub struct RunBearingSummary<'a> {
     /// What results call it; empty for the only one.
     pub label: &'a str,
     /// Place along the shaft from its centre of mass, m.
@@ -238,7 +238,7 @@ impl<R: Recording> RunResult<R> {
             other_equilibria: in_plane.map(|machine| machine.statics.equilibria.iter().skip(1).map(other).collect()),
             defect_orders: in_plane.map(|machine| machine.scene.setup.geometry.orders()),
             shaft: self.machine.in_space().map(|scene| ShaftSummary::of(&scene.equilibrium)),
-            bearings: BearingSummary::all_of(&self.machine),
+            bearings: RunBearingSummary::all_of(&self.machine),
             windows: &self.windows,
             superelement: SuperelementSummary::of(&stage.bodies),
             not_analysed: &self.not_analysed,
@@ -266,7 +266,7 @@ impl ShaftSummary {
     }
 }
 
-impl<'a> BearingSummary<'a> {
+impl<'a> RunBearingSummary<'a> {
     fn all_of(machine: &'a Machine) -> Vec<Self> {
         let Machine::InSpace(machine) = machine else { return Vec::new() };
         let scene = &machine.scene;

@@ -32,9 +32,6 @@ const SHARE: f64 = 0.8;
 /// Phase of a ball between both races in the largest step, rad.
 const BALL_PHASE: f64 = 0.5;
 
-/// Instants among which the highest speed is looked for.
-const SPEEDS: u32 = 64;
-
 impl Stepped for MachineScene {
     fn stepped_from_rest(&self, model: &RunModel, span: Span, begin: f64) -> Result<Simulation, ComputeError> {
         let (system, state) = self.at_rest(model, begin)?;
@@ -43,9 +40,7 @@ impl Stepped for MachineScene {
 
     fn before_a_strike(&self, asked: &case::Transient, spare: f64) -> f64 {
         let shaft = self.setup.bearings[0].cage.shaft();
-        let at = |number: u32| asked.start + spare * f64::from(number) / f64::from(SPEEDS);
-        let speed = |t: f64| shaft.motion(t).speed.abs();
-        let fastest = (1..=SPEEDS).map(at).fold(asked.start, |best, t| if speed(t) > speed(best) { t } else { best });
+        let fastest = shaft.fastest_instant(asked.start, asked.start + spare);
         let bearings = self.setup.bearings.iter().zip(&self.orders);
         let strikes = bearings.filter_map(|(own, orders)| {
             let defect = own.bearing.defects().first()?;

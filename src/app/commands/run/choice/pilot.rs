@@ -74,9 +74,6 @@ pub(crate) const MORE: usize = 4;
 /// Instants in the length of the stretch at which the error since the start is looked at.
 const INSTANTS: u32 = 8;
 
-/// Instants among which the highest speed is looked for.
-const SPEEDS: u32 = 64;
-
 /// Steps of half a first stretch: parts of a long one, of which that with the largest error counts. Contacts that nothing damps take half
 /// of a stretch until their vibration has grown to the tolerance.
 const PARTS: f64 = 2.0;
@@ -274,13 +271,10 @@ pub(crate) fn stretch(
     signals.collect()
 }
 
-/// The instant of the highest speed among those of the run that leave the stretch, and from there the time to the next impact.
+/// The instant of the shaft's highest speed among those of the run that leave the stretch, and from there the time to the next impact.
 pub(crate) fn begin(asked: &case::Transient, scene: &Scene, spare: f64) -> f64 {
     let setup = &scene.setup;
-    let speed = |t: f64| setup.cage.motion(t).speed.abs();
-    let at = |number: u32| asked.start + spare * f64::from(number) / f64::from(SPEEDS);
-    let instants = (1..=SPEEDS).map(at);
-    let fastest = instants.fold(asked.start, |best, t| if speed(t) > speed(best) { t } else { best });
+    let fastest = setup.cage.shaft().fastest_instant(asked.start, asked.start + spare);
     match next_strike(scene, fastest) {
         Some((until, _)) if until <= spare - (fastest - asked.start) => fastest + until,
         _ => fastest,

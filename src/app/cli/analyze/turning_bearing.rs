@@ -1,4 +1,4 @@
-//! The machine whose signals are analysed: its bearing and the speed of its shaft.
+//! The bearing whose signals are analysed, and the speed of its shaft.
 //!
 //! Which bearing it is: how often its parts strike.
 
@@ -23,7 +23,7 @@ const GEOMETRY_ERROR: f64 = 0.01;
 const SAME: f64 = 0.01;
 
 /// A bearing and what is said of its shaft's speed.
-pub(super) struct Machine {
+pub(super) struct TurningBearing {
     /// `None` where nothing says the bearing.
     pub(super) orders: Option<FaultOrders>,
     /// The bearing of a case that says its motion too, and the relative error of its orders.
@@ -37,7 +37,7 @@ pub(super) struct Machine {
     pub(super) of_run: Option<(String, DamageShown)>,
 }
 
-impl Machine {
+impl TurningBearing {
     /// What was typed goes before what a case says. `case` is the one of a run's folder, or that of `--bearing`.
     ///
     /// # Errors
@@ -51,6 +51,7 @@ impl Machine {
         if let (Some(folder), Some(case)) = (run, case)
             && let Some(label) = bearing_of_run(asked, case)?
         {
+            refuse_contact_angle(asked, "a run in space, whose results say the orders")?;
             return Self::of_run_in_space(asked, folder, case, &label);
         }
         let is_run = run.is_some();
@@ -60,6 +61,9 @@ impl Machine {
             Some(Named::Case(path)) if is_run => (Some(in_the_plane(path, options)?), None),
             _ => (None, None),
         };
+        if asked.balls.is_none() && catalogue.is_none() {
+            refuse_contact_angle(asked, if case.is_some() { "a case, which has its own" } else { "no bearing" })?;
+        }
         let typed = asked.orders.is_some() || asked.balls.is_some() || catalogue.is_some();
         let bearing = other.as_ref().or(case);
         let moved = |case: Option<&Case>| {
@@ -79,7 +83,9 @@ impl Machine {
             setup: setup.map(|setup| (Box::new(setup), asked.geometry_error.unwrap_or(exact))),
             typed: asked.speed.clone(),
             of_case: of_case.map(|setup| setup.cage.shaft().clone()),
-            catalogue: catalogue.zip(asked.bearing.as_deref()).map(|(bearing, name)| described(bearing, name)),
+            catalogue: catalogue
+                .zip(asked.bearing.as_deref())
+                .map(|(bearing, name)| described(bearing, name, asked.contact_angle)),
             own_first: false,
             of_run: None,
         })
@@ -278,14 +284,15 @@ pub(super) fn orders(
     error: f64,
 ) -> Result<Option<FaultOrders>, CliError> {
     let in_row = |row: Result<DefectOrders, BearingError>| row.map_err(ComputeError::bearing("bearing: "));
+    let angle = asked.contact_angle.unwrap_or(0.0).to_radians();
     let row: DefectOrders = match (&asked.orders, asked.balls, catalogue, case) {
         (Some(given), ..) => return Ok(Some(FaultOrders::new(given.0, error).map_err(ComputeError::from)?)),
         // clap sees to it that all three numbers are there
         (None, Some(balls), ..) => {
             let [ball, pitch] = [asked.ball_diameter, asked.pitch_diameter].map(|given| given.unwrap_or(f64::NAN));
-            in_row(BallRow::new(balls, ball, pitch, asked.contact_angle.to_radians()).map(|row| row.orders()))?
+            in_row(BallRow::new(balls, ball, pitch, angle).map(|row| row.orders()))?
         }
-        (None, None, Some(bearing), _) => in_row(catalogue_orders(bearing))?,
+        (None, None, Some(bearing), _) => in_row(catalogue_orders(bearing, angle))?,
         (None, None, None, Some(case)) => {
             let geometry = bearing_geometry(case)?;
             geometry.ok_or_else(|| without_bearing(case))?.orders()
@@ -295,23 +302,37 @@ pub(super) fn orders(
     Ok(Some(FaultOrders::of(&row, error).map_err(ComputeError::from)?))
 }
 
-/// Orders of a bearing of the catalogue, without a contact angle.
-pub(in crate::app::cli) fn catalogue_orders(bearing: &CatalogueBearing) -> Result<DefectOrders, BearingError> {
-    Ok(BallRow::new(bearing.balls, bearing.ball_diameter, bearing.pitch_diameter, 0.0)?.orders())
+/// Orders of a bearing of the catalogue at a contact angle, rad.
+pub(in crate::app::cli) fn catalogue_orders(
+    bearing: &CatalogueBearing,
+    angle: f64,
+) -> Result<DefectOrders, BearingError> {
+    Ok(BallRow::new(bearing.balls, bearing.ball_diameter, bearing.pitch_diameter, angle)?.orders())
+}
+
+/// Refuses a contact angle beside what has its own, or beside nothing.
+fn refuse_contact_angle(asked: &AnalyzeArguments, beside: &str) -> Result<(), CliError> {
+    let Some(degrees) = asked.contact_angle else { return Ok(()) };
+    let what = format!(
+        "--contact-angle: found {degrees} beside {beside}, expected --balls or a bearing of the catalogue (--bearing 6205)"
+    );
+    Err(CliError::input(what)
+        .with_help("leave it out, or add --bearing NAME or --balls, --pitch-diameter and --ball-diameter"))
 }
 
 /// What is taken for granted of a bearing of the catalogue that was given by a name.
-fn described(bearing: &CatalogueBearing, name: &Path) -> String {
+fn described(bearing: &CatalogueBearing, name: &Path, angle_deg: Option<f64>) -> String {
     let left_out = CatalogueBearing::left_out(&name.to_string_lossy());
     let left_out =
         left_out.map_or_else(String::new, |parts| format!(" Nothing is taken from {parts} beside its number."));
     format!(
-        "Bearing {}: {} balls of {:.3} mm on a circle of {:.2} mm{} ({}).{left_out}",
+        "Bearing {}: {} balls of {:.3} mm on a circle of {:.2} mm{}{} ({}).{left_out}",
         bearing.name,
         bearing.balls,
         1e3 * bearing.ball_diameter,
         1e3 * bearing.pitch_diameter,
         if bearing.pitch_published { "" } else { ", the mean of bore and outer diameter, for none is published" },
+        angle_deg.map_or_else(String::new, |degrees| format!(", at a contact angle of {degrees} degrees")),
         bearing.source.citation()
     )
 }
