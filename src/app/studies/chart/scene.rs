@@ -1,14 +1,11 @@
 //! What a chart simulates: one bearing in its plane, or a shaft in bearings in space; and systems of its models.
 
-use super::Start;
 use super::budget::Deadline;
-use super::starts::perturb;
-use super::trace::{Failure, FailureKind};
-use crate::app::case::{AskedRun, Case, Ensemble, RunCase, Transient};
+use crate::app::case::{AskedRun, Case, RunCase, Transient};
 use crate::app::commands::parts;
 use crate::app::commands::run::choice::ModelChoice;
 use crate::app::commands::run::choice::pilot::{next_on, next_strike};
-use crate::app::commands::run::{RunEnd, Simulation, Span};
+use crate::app::commands::run::{Simulation, Span};
 use crate::app::error::ComputeError;
 use crate::app::scene::{CoupledStructure, MachineScene, RunModel, Scene};
 use crate::bearing::Cage;
@@ -178,43 +175,33 @@ impl ChartScene {
 }
 
 impl Ready<'_> {
-    /// A whole simulation of a model from rest at a start; perturbed as an ensemble's runs are, if one is given.
+    /// The state at rest at an instant (s); in its plane in an equilibrium that is known, or in that of the scene's start.
     ///
     /// # Errors
-    /// [`Failure`] also for one that ended before its time, or that is not done at `until`.
-    pub(super) fn simulate(
-        &self,
-        start: &Start,
-        model: &RunModel,
-        span: Span,
-        perturbed: Option<Ensemble>,
-        until: Deadline,
-    ) -> Result<Simulation, Failure> {
-        let mut state = self.at_rest(start)?;
-        if let Some(Ensemble { perturbation, seed, .. }) = perturbed {
-            perturb(&mut state, perturbation, seed, start.number);
-        }
-        let simulation = match self {
-            Self::InPlane(_, system) => kept((**system).clone(), state, model, span, until),
-            Self::InSpace(_, system, _) => kept((**system).clone(), state, model, span, until),
-        }?;
-        match simulation.end {
-            RunEnd::Complete => Ok(simulation),
-            RunEnd::BlewUp(error) => Err(Failure::new(FailureKind::BlewUp, error.to_string())),
+    /// [`ComputeError::System`] where the model does not rest.
+    pub(super) fn at_rest(&self, time: f64, known: Option<&Equilibrium>) -> Result<State, ComputeError> {
+        match self {
+            Self::InPlane(scene, system) => {
+                Ok(system.state_at(time, known.unwrap_or(&scene.equilibrium), &scene.stage.modes))
+            }
+            Self::InSpace(scene, system, basis) => scene.rest_in(system, basis, time),
         }
     }
 
-    fn at_rest(&self, start: &Start) -> Result<State, ComputeError> {
+    /// A simulation of a model from a state on.
+    ///
+    /// # Errors
+    /// [`ComputeError`], also where it is not done at `until`.
+    pub(super) fn from(
+        &self,
+        state: State,
+        model: &RunModel,
+        span: Span,
+        until: Deadline,
+    ) -> Result<Simulation, ComputeError> {
         match self {
-            Self::InPlane(scene, system) => {
-                let condition = StaticCondition::at(&scene.setup, start.time_s);
-                let found = match &start.equilibrium {
-                    Some(known) => Ok(known.clone()),
-                    None => Equilibrium::find(&scene.stage.structure, &scene.setup, condition),
-                };
-                Ok(system.state_at(start.time_s, &found?, &scene.stage.modes))
-            }
-            Self::InSpace(scene, system, basis) => scene.rest_in(system, basis, start.time_s),
+            Self::InPlane(_, system) => kept((**system).clone(), state, model, span, until),
+            Self::InSpace(_, system, _) => kept((**system).clone(), state, model, span, until),
         }
     }
 }

@@ -2,8 +2,11 @@
 //! and small random changes of their states.
 
 use super::Settings;
+use super::budget::Deadline;
 use super::scene::{ChartScene, Ready};
 use super::trace::{Failure, FailureKind};
+use crate::app::case;
+use crate::app::commands::run::{RunEnd, Simulation, Span};
 use crate::app::error::ComputeError;
 use crate::app::scene::RunModel;
 use crate::bearing::Cage;
@@ -116,6 +119,31 @@ fn ball_pass(cage: &Cage, from: f64, to: f64) -> f64 {
 
 /// The systems of a scene's models; models that differ by method or step alone share one.
 pub(super) struct Systems<'a>(Vec<(RunModel, Result<Ready<'a>, Failure>)>);
+
+impl Ready<'_> {
+    /// A whole simulation of a model from rest at a start; perturbed as an ensemble's runs are, if one is given.
+    ///
+    /// # Errors
+    /// [`Failure`] also for one that ended before its time, or that is not done at `until`.
+    pub(super) fn simulate(
+        &self,
+        start: &Start,
+        model: &RunModel,
+        span: Span,
+        perturbed: Option<case::Ensemble>,
+        until: Deadline,
+    ) -> Result<Simulation, Failure> {
+        let mut state = self.at_rest(start.time_s, start.equilibrium.as_ref())?;
+        if let Some(case::Ensemble { perturbation, seed, .. }) = perturbed {
+            perturb(&mut state, perturbation, seed, start.number);
+        }
+        let simulation = self.from(state, model, span, until)?;
+        match simulation.end {
+            RunEnd::Complete => Ok(simulation),
+            RunEnd::BlewUp(error) => Err(Failure::new(FailureKind::BlewUp, error.to_string())),
+        }
+    }
+}
 
 impl<'a> Systems<'a> {
     /// Those of some models, built in parallel.
