@@ -1,15 +1,16 @@
 //! A rigid shaft in its bearings in their housing, at rest where a run in space starts.
 
 use super::bearing::{defects, slip, speed, stiffness};
+use super::contacts::{Contact, in_space as contacts_in_space};
 use super::damping::{damping, refuse_structural_damping};
 use super::doubts::doubts;
 use super::spatial::{spatial_bearing, spatial_load};
 use super::structure::{CoupledStructure, needed_modes};
-use crate::app::case::{self, Case, Defect, DentDefect, Preload, Rule, Seat, SpatialCase};
+use crate::app::case::{self, Case, ContactStiffness, Defect, DentDefect, Preload, Rule, Seat, SpatialCase};
 use crate::app::error::ComputeError;
 use crate::app::scene::RunModel;
 use crate::bearing::kinematics::DefectOrders;
-use crate::bearing::spatial::{AcrossGroove, GrooveDefect, SpatialBearing, Thrust};
+use crate::bearing::spatial::{AcrossGroove, GrooveDefect, SpatialBearing};
 use crate::bearing::{Cage, Race};
 use crate::fe::model::RingSeat;
 use crate::fe::reduction::frf::ModalDamping;
@@ -25,6 +26,9 @@ use nalgebra::Vector2;
 
 /// Instants among which the highest speed of a run is looked for.
 const INSTANTS: u32 = 64;
+
+/// Change of an order, relative, that is told: a tooth of a verdict's comb is as wide by the slip that it allows for.
+const SPREAD: f64 = 1e-3;
 
 /// How far from one line centres of bearings may be, m, and how far from parallel their axes, rad: what is written in six digits.
 const OFF_LINE: f64 = 1e-7;
@@ -74,12 +78,20 @@ impl MachineScene {
         let orders = turn_by_the_angles_in_force(run, [start, end], &stage, &mut setup)?;
         let condition = SpatialCondition::at(&setup, start);
         let equilibrium = SpatialEquilibrium::find(&stage.structure, &setup, &condition)?;
+        accept(&run.seats, &setup, &equilibrium, "at rest")?;
         refuse_other_shoulder(case, &run.seats, &setup, &equilibrium)?;
         let mut doubts = doubts(case, stage.bodies.mesh_and_model(), None)?;
+        doubts.extend(by_hertz(&run.seats, &setup, &equilibrium).flat_map(|(seat, contacts)| {
+            let found = contacts.into_iter().flat_map(|contact| contact.doubts());
+            found.map(|doubt| seat.told(doubt)).collect::<Vec<_>>()
+        }));
         if equilibrium.directions_down > 0 {
             doubts.push("the equilibrium that the run starts from is not stable: the shaft leaves it at the smallest push; other loads, more preload or another bearing.first_ball_deg start from a stable one".to_owned());
         }
         doubts.extend(starts_in_damage(&setup, start));
+        let at_end = SpatialEquilibrium::find(&stage.structure, &setup, &SpatialCondition::at(&setup, end)).ok();
+        let ends = [("start", Some(&equilibrium)), ("end", at_end.as_ref())];
+        doubts.extend(ends.into_iter().filter_map(|(when, rest)| other_orders(&setup, &orders, rest?, when)));
         Ok(Self { stage, setup, orders, damping: damping(case)?, start, equilibrium, doubts })
     }
 
@@ -89,6 +101,15 @@ impl MachineScene {
         let own = &mut scene.setup.bearings[bearing];
         own.bearing = own.bearing.clone().without_defects();
         scene
+    }
+
+    /// The equilibrium, then the others that the loads allow.
+    ///
+    /// # Errors
+    /// [`ComputeError::System`] where nothing rests.
+    pub(crate) fn equilibria(&self) -> Result<Vec<SpatialEquilibrium>, ComputeError> {
+        let condition = SpatialCondition::at(&self.setup, self.start);
+        Ok(SpatialEquilibrium::find_all(&self.stage.structure, &self.setup, &condition)?)
     }
 
     /// Modes linearised at the equilibrium, of all modes of the structure that are known.
@@ -129,6 +150,24 @@ impl MachineScene {
     }
 }
 
+/// The contacts of every bearing whose stiffness is Hertz's: where one is given, grooves and materials do not act.
+fn by_hertz<'a>(
+    seats: &'a [Seat<'a>],
+    setup: &'a SpatialSetup,
+    rest: &'a SpatialEquilibrium,
+) -> impl Iterator<Item = (&'a Seat<'a>, Vec<Contact>)> {
+    let bearings = seats.iter().zip(setup.bearings.iter().zip(&rest.bearings));
+    let hertz = |seat: &Seat| seat.bearing.is_some_and(|asked| asked.stiffness == ContactStiffness::Hertz);
+    let bearings = bearings.filter(move |(seat, _)| hertz(seat));
+    bearings.map(|(seat, (own, balls))| (seat, contacts_in_space(&own.bearing, balls)))
+}
+
+/// Refuses contacts that cannot be.
+fn accept(seats: &[Seat<'_>], setup: &SpatialSetup, rest: &SpatialEquilibrium, when: &str) -> Result<(), ComputeError> {
+    by_hertz(seats, setup, rest)
+        .try_for_each(|(seat, contacts)| contacts.iter().try_for_each(|contact| contact.accept(&seat.key(""), when)))
+}
+
 /// Refuses a bearing that is pushed against the way in which it holds thrust: it would come apart, and the model has the other shoulder.
 fn refuse_other_shoulder(
     case: &Case,
@@ -136,21 +175,12 @@ fn refuse_other_shoulder(
     setup: &SpatialSetup,
     rest: &SpatialEquilibrium,
 ) -> Result<(), ComputeError> {
-    for ((seat, own), balls) in seats.iter().zip(&setup.bearings).zip(&rest.bearings) {
-        let along: f64 = balls.iter().map(|ball| ball.load[0] * ball.contact_angle[0].unwrap_or(0.0).sin()).sum();
-        let thrust = own.bearing.thrust();
-        if thrust != Thrust::Both && along * thrust.sign() < 0.0 {
-            let rule = Rule::found(
-                format!(
-                    "{} N of thrust at rest against the way in which the bearing holds it",
-                    significant(along.abs(), 3)
-                ),
-                "bearings that hold each other: thrust both ways, or preload above the axial load",
-            );
-            return Err(case.broken(&rule.at(seat.key("bearing.thrust"))).into());
-        }
-    }
-    Ok(())
+    let Some((index, along)) = rest.pushed_apart(setup) else { return Ok(()) };
+    let rule = Rule::found(
+        format!("{} N of thrust at rest against the way in which the bearing holds it", significant(along, 3)),
+        "bearings that hold each other: thrust both ways, or preload above the axial load",
+    );
+    Err(case.broken(&rule.at(seats[index].key("bearing.thrust"))).into())
 }
 
 /// That a ball starts on a defect, a sentence a bearing: the rest that a run begins with is one on whole races.
@@ -338,6 +368,7 @@ fn turn_by_the_angles_in_force(
     let fastest = instants.fold(start, |best, t| if speed(t) > speed(best) { t } else { best });
     let condition = SpatialCondition::at(setup, fastest);
     let equilibrium = SpatialEquilibrium::find(&stage.structure, setup, &condition)?;
+    accept(&run.seats, setup, &equilibrium, "at the highest speed")?;
     let mut orders = Vec::with_capacity(setup.bearings.len());
     for ((own, seat), balls) in setup.bearings.iter_mut().zip(&run.seats).zip(&equilibrium.bearings) {
         let Some(asked) = seat.bearing else { continue };
@@ -354,6 +385,38 @@ fn turn_by_the_angles_in_force(
         ));
     }
     Ok(orders)
+}
+
+/// That the contact angles at one end of the run make other orders, of the bearing where they differ most.
+fn other_orders(
+    setup: &SpatialSetup,
+    orders: &[DefectOrders],
+    rest: &SpatialEquilibrium,
+    when: &str,
+) -> Option<String> {
+    let mut most = (0.0_f64, "", "", 0.0, 0.0);
+    for ((own, taken), balls) in setup.bearings.iter().zip(orders).zip(&rest.bearings) {
+        let Some(ratio) = cage_ratio(&own.bearing, balls) else { continue };
+        let geometry = own.bearing.geometry();
+        let there = DefectOrders::of_cage(f64::from(geometry.balls()), geometry.diameter_ratio(), ratio);
+        for (line, taken, there) in [("BPFO", taken.outer, there.outer), ("BPFI", taken.inner, there.inner)] {
+            let change = there / taken - 1.0;
+            if change.abs() > most.0.abs() {
+                most = (change, &own.label, line, taken, there);
+            }
+        }
+    }
+    let (change, label, line, taken, there) = most;
+    (change.abs() > SPREAD).then(|| {
+        format!(
+            "{}: cage and verdicts go by the contact angles at the highest speed, {line} {}; those at the {when} of the run make it {}, {} % {}: on a machine its lines smear by so much, in these signals they do not",
+            if label.is_empty() { "the bearing".to_owned() } else { format!("bearing {label}") },
+            significant(taken, 5),
+            significant(there, 5),
+            significant(100.0 * change.abs(), 2),
+            if change > 0.0 { "more" } else { "less" }
+        )
+    })
 }
 
 /// Turns of the cage in a turn of the shaft: the mean of the balls' rolling, by their loads; `None` where no ball is loaded.

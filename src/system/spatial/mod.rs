@@ -5,6 +5,7 @@
 //! coordinates. Read `force.rs` first.
 
 mod balls;
+mod branches;
 mod damage;
 mod energy;
 mod equilibrium;

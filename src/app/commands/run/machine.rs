@@ -5,7 +5,8 @@ use crate::app::commands::analyze::DamageShown;
 use crate::app::scene::{CoupledStructure, MachineScene, Scene};
 use crate::bearing::kinematics::DefectOrders;
 use crate::bearing::{Cage, SpeedProfile};
-use crate::system::{LoadedModes, Statics};
+use crate::signal::diagnosis::Fault;
+use crate::system::{LoadedModes, SpatialEquilibrium, Statics};
 
 /// Orders of two bearings nearer than this, relative, belong together in windows of up to some hundred revolutions.
 const ALIKE: f64 = 5e-3;
@@ -35,6 +36,8 @@ pub struct PlaneMachine {
 pub struct SpatialMachine {
     /// The scene.
     pub scene: MachineScene,
+    /// All equilibria that were found; the first one is taken.
+    pub equilibria: Vec<SpatialEquilibrium>,
     /// Modes linearised where it rests.
     pub loaded: LoadedModes,
     /// Of each bearing what its damage adds to a stretch of the signals, over the RMS without it, the largest sensor's; zero of a sound
@@ -149,6 +152,17 @@ impl Machine {
                 bearings.collect()
             }
         }
+    }
+
+    /// The parts of other bearings that strike at the order of one, each with its bearing's label.
+    pub(super) fn at_the_order_of(&self, (label, fault): (&str, Fault)) -> Vec<(&str, Fault)> {
+        let bearings = self.bearings();
+        let Some(own) = bearings.iter().find(|bearing| bearing.label == label) else { return Vec::new() };
+        let order = fault.order(&own.orders);
+        let others = bearings.iter().filter(|other| other.label != label);
+        let parts = others.flat_map(|other| Fault::ALL.map(|part| (other, part)));
+        let near = parts.filter(|(other, part)| (part.order(&other.orders) - order).abs() <= ALIKE * order);
+        near.map(|(other, part)| (other.label, part)).collect()
     }
 
     /// That bearings strike at the same orders, a sentence a pair.
