@@ -1,34 +1,31 @@
 //! A rigid shaft in its bearings in their housing, at rest where a run in space starts.
 
 use super::bearing::{defects, slip, speed, stiffness};
-use super::contacts::{Contact, in_space as contacts_in_space};
 use super::damping::{damping, refuse_structural_damping};
 use super::doubts::doubts;
+use super::machine_checks::{
+    accept, by_hertz, other_orders, refuse_other_shoulder, refuse_plane_keys, starts_in_damage,
+};
 use super::spatial::{spatial_bearing, spatial_load};
 use super::structure::{CoupledStructure, needed_modes};
-use crate::app::case::{self, Case, ContactStiffness, Defect, DentDefect, Preload, Rule, Seat, SpatialCase};
+use crate::app::case::{self, Case, Defect, DentDefect, Preload, Rule, Seat, SpatialCase};
 use crate::app::error::ComputeError;
 use crate::app::scene::RunModel;
+use crate::bearing::Cage;
 use crate::bearing::kinematics::DefectOrders;
 use crate::bearing::spatial::{AcrossGroove, GrooveDefect, SpatialBearing};
-use crate::bearing::{Cage, Race};
 use crate::fe::model::RingSeat;
 use crate::fe::reduction::frf::ModalDamping;
 use crate::numerics::Watch;
 use crate::numerics::ode::State;
-use crate::report::significant;
 use crate::system::{
-    BallsInertia, BearingInPlace, Formulation, LoadProfile, LoadedModes, ModeSelection, SpatialBallLoad,
-    SpatialCondition, SpatialEquilibrium, SpatialLoad, SpatialSetup, SpatialShaft, SpatialSystem, StructureModes,
-    Unbalance, with_static_vectors,
+    BearingInPlace, LoadProfile, LoadedModes, ModeSelection, SpatialBallLoad, SpatialCondition, SpatialEquilibrium,
+    SpatialLoad, SpatialSetup, SpatialShaft, SpatialSystem, StructureModes, Unbalance, with_static_vectors,
 };
 use nalgebra::Vector2;
 
 /// Instants among which the highest speed of a run is looked for.
 const INSTANTS: u32 = 64;
-
-/// Change of an order, relative, that is told: a tooth of a verdict's comb is as wide by the slip that it allows for.
-const SPREAD: f64 = 1e-3;
 
 /// How far from one line centres of bearings may be, m, and how far from parallel their axes, rad: what is written in six digits.
 const OFF_LINE: f64 = 1e-7;
@@ -91,7 +88,9 @@ impl MachineScene {
         doubts.extend(starts_in_damage(&setup, start));
         let at_end = SpatialEquilibrium::find(&stage.structure, &setup, &SpatialCondition::at(&setup, end)).ok();
         let ends = [("start", Some(&equilibrium)), ("end", at_end.as_ref())];
-        doubts.extend(ends.into_iter().filter_map(|(when, rest)| other_orders(&setup, &orders, rest?, when)));
+        doubts.extend(
+            ends.into_iter().filter_map(|(when, rest)| other_orders(&setup, &orders, &orders_at(&setup, rest?), when)),
+        );
         Ok(Self { stage, setup, orders, damping: damping(case)?, start, equilibrium, doubts })
     }
 
@@ -147,82 +146,6 @@ impl MachineScene {
         let system = SpatialSystem::new(structure, &basis, self.setup.clone(), ModeSelection::All, &self.damping)?;
         let state = system.state_at(time, &rest, &basis);
         Ok((system, state))
-    }
-}
-
-/// The contacts of every bearing whose stiffness is Hertz's: where one is given, grooves and materials do not act.
-fn by_hertz<'a>(
-    seats: &'a [Seat<'a>],
-    setup: &'a SpatialSetup,
-    rest: &'a SpatialEquilibrium,
-) -> impl Iterator<Item = (&'a Seat<'a>, Vec<Contact>)> {
-    let bearings = seats.iter().zip(setup.bearings.iter().zip(&rest.bearings));
-    let hertz = |seat: &Seat| seat.bearing.is_some_and(|asked| asked.stiffness == ContactStiffness::Hertz);
-    let bearings = bearings.filter(move |(seat, _)| hertz(seat));
-    bearings.map(|(seat, (own, balls))| (seat, contacts_in_space(&own.bearing, balls)))
-}
-
-/// Refuses contacts that cannot be.
-fn accept(seats: &[Seat<'_>], setup: &SpatialSetup, rest: &SpatialEquilibrium, when: &str) -> Result<(), ComputeError> {
-    by_hertz(seats, setup, rest)
-        .try_for_each(|(seat, contacts)| contacts.iter().try_for_each(|contact| contact.accept(&seat.key(""), when)))
-}
-
-/// Refuses a bearing that is pushed against the way in which it holds thrust: it would come apart, and the model has the other shoulder.
-fn refuse_other_shoulder(
-    case: &Case,
-    seats: &[Seat<'_>],
-    setup: &SpatialSetup,
-    rest: &SpatialEquilibrium,
-) -> Result<(), ComputeError> {
-    let Some((index, along)) = rest.pushed_apart(setup) else { return Ok(()) };
-    let rule = Rule::found(
-        format!("{} N of thrust at rest against the way in which the bearing holds it", significant(along, 3)),
-        "bearings that hold each other: thrust both ways, or preload above the axial load",
-    );
-    Err(case.broken(&rule.at(seats[index].key("bearing.thrust"))).into())
-}
-
-/// That a ball starts on a defect, a sentence a bearing: the rest that a run begins with is one on whole races.
-fn starts_in_damage(setup: &SpatialSetup, start: f64) -> Vec<String> {
-    let told = setup.bearings.iter().filter(|own| {
-        let cage = own.cage.motion(start).angle;
-        let shaft = own.cage.shaft().angle(start);
-        let balls = (0..own.bearing.balls()).map(|ball| own.cage.ball_angle(cage, ball as u32));
-        let on = |angle: f64| {
-            own.bearing.defects().iter().any(|defect| {
-                let turned = if defect.race() == Race::Inner { shaft } else { 0.0 };
-                defect.profile().contains(angle - turned)
-            })
-        };
-        balls.into_iter().any(on)
-    });
-    let told = told.map(|own| {
-        let name = if own.label.is_empty() { "the bearing".to_owned() } else { format!("bearing {}", own.label) };
-        format!("a ball of {name} starts on a defect: it falls into it at the first instant, and the first samples ring; another bearing.first_ball_deg begins beside it")
-    });
-    told.collect()
-}
-
-/// Refuses what of a bearing only the model in the plane knows.
-fn refuse_plane_keys(case: &Case, seat: &Seat<'_>) -> Result<(), ComputeError> {
-    let Some(bearing) = seat.bearing else { return Ok(()) };
-    let given = [
-        ("formulation", bearing.formulation != Formulation::Consistent),
-        ("balls_inertia", bearing.balls_inertia == Some(BallsInertia::QuasiStatic)),
-        ("waviness", !bearing.waviness.is_empty()),
-        ("ball_radius_differences", !bearing.ball_radius_differences.is_empty()),
-        ("defects", bearing.defects.iter().any(|defect| matches!(defect, Defect::Flat(_)))),
-    ];
-    match given.into_iter().find(|(_, given)| *given) {
-        None => Ok(()),
-        Some((key, _)) => {
-            let rule = Rule::found(
-                "a key of the bearing in its plane",
-                "none where the shaft has several bearings, axial load or a contact angle",
-            );
-            Err(case.broken(&rule.at(seat.key(&format!("bearing.{key}")))).into())
-        }
     }
 }
 
@@ -387,36 +310,14 @@ fn turn_by_the_angles_in_force(
     Ok(orders)
 }
 
-/// That the contact angles at one end of the run make other orders, of the bearing where they differ most.
-fn other_orders(
-    setup: &SpatialSetup,
-    orders: &[DefectOrders],
-    rest: &SpatialEquilibrium,
-    when: &str,
-) -> Option<String> {
-    let mut most = (0.0_f64, "", "", 0.0, 0.0);
-    for ((own, taken), balls) in setup.bearings.iter().zip(orders).zip(&rest.bearings) {
-        let Some(ratio) = cage_ratio(&own.bearing, balls) else { continue };
+/// Orders of each bearing at the contact angles of a rest; `None` where no ball is loaded.
+fn orders_at(setup: &SpatialSetup, rest: &SpatialEquilibrium) -> Vec<Option<DefectOrders>> {
+    let orders = |(own, balls): (&BearingInPlace, &Vec<SpatialBallLoad>)| {
         let geometry = own.bearing.geometry();
-        let there = DefectOrders::of_cage(f64::from(geometry.balls()), geometry.diameter_ratio(), ratio);
-        for (line, taken, there) in [("BPFO", taken.outer, there.outer), ("BPFI", taken.inner, there.inner)] {
-            let change = there / taken - 1.0;
-            if change.abs() > most.0.abs() {
-                most = (change, &own.label, line, taken, there);
-            }
-        }
-    }
-    let (change, label, line, taken, there) = most;
-    (change.abs() > SPREAD).then(|| {
-        format!(
-            "{}: cage and verdicts go by the contact angles at the highest speed, {line} {}; those at the {when} of the run make it {}, {} % {}: on a machine its lines smear by so much, in these signals they do not",
-            if label.is_empty() { "the bearing".to_owned() } else { format!("bearing {label}") },
-            significant(taken, 5),
-            significant(there, 5),
-            significant(100.0 * change.abs(), 2),
-            if change > 0.0 { "more" } else { "less" }
-        )
-    })
+        let ratio = cage_ratio(&own.bearing, balls)?;
+        Some(DefectOrders::of_cage(f64::from(geometry.balls()), geometry.diameter_ratio(), ratio))
+    };
+    setup.bearings.iter().zip(&rest.bearings).map(orders).collect()
 }
 
 /// Turns of the cage in a turn of the shaft: the mean of the balls' rolling, by their loads; `None` where no ball is loaded.

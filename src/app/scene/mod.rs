@@ -22,6 +22,7 @@ mod imported_tests;
 pub(crate) mod in_full;
 mod kept;
 pub(crate) mod machine;
+mod machine_checks;
 pub(crate) mod places;
 mod plausible;
 pub(crate) mod ring;

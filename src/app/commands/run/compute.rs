@@ -1,6 +1,6 @@
 //! `plummer run`: equilibrium, transient, signals, analysis.
 
-use super::machine::{BearingModel, Machine, PlaneMachine, SpatialMachine};
+use super::machine::{BearingModel, Machine, PlaneMachine, SpatialMachine, at_the_order_of};
 use super::recording::{Checkpoints, InMemory, Recording};
 use super::scalogram::SensorScalogram;
 use super::simulation::{RunEnd, Simulation, Span};
@@ -199,9 +199,10 @@ impl<R: Recording> RunResult<R> {
             "" => fault.name().to_owned(),
             label => format!("bearing {label}, {}", fault.name()),
         };
+        let bearings = self.machine.bearings();
         let told = named.into_iter().map(|(part, mut sensors)| {
             sensors.dedup();
-            let alike: Vec<String> = self.machine.at_the_order_of(part).into_iter().map(in_words).collect();
+            let alike: Vec<String> = at_the_order_of(&bearings, part).into_iter().map(in_words).collect();
             let alike = match alike.is_empty() {
                 true => String::new(),
                 false => format!(
