@@ -156,6 +156,8 @@ fn what_a_shaft_in_space_cannot_have_is_refused_with_its_key() {
     let wave = "bearings.0.bearing.waviness=[{on='outer',order=9,amplitude=1e-7}]";
     assert!(refusal(SPINDLE, &[wave]).contains("bearings[0].bearing.waviness"));
     assert!(refusal(SPINDLE, &["shaft.polar_inertia=1"]).contains("shaft.polar_inertia"));
+    let torn = refusal("machines/motor.toml", &["speed.profile=[{time=0,rpm=1e6}]"]);
+    assert!(torn.starts_with("equilibrium at the highest speed of the run, 1e6 rpm: no static"), "{torn}");
     let crushed = refusal(SPINDLE, &["shaft.loads=[{force=[0,-2e4,15],at=-8e-3}]"]);
     assert!(crushed.starts_with("bearings[0].bearing: the pressure between a ball and the inner race"), "{crushed}");
     assert!(crushed.contains("a tenth of the effective modulus"), "{crushed}");

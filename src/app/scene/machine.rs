@@ -4,7 +4,7 @@ use super::bearing::{defects, slip, speed, stiffness};
 use super::damping::{damping, refuse_structural_damping};
 use super::doubts::doubts;
 use super::machine_checks::{
-    accept, by_hertz, other_orders, refuse_other_shoulder, refuse_plane_keys, starts_in_damage,
+    accept, by_hertz, nothing_rests, other_orders, refuse_other_shoulder, refuse_plane_keys, starts_in_damage,
 };
 use super::spatial::{spatial_bearing, spatial_load};
 use super::structure::{CoupledStructure, needed_modes};
@@ -290,7 +290,8 @@ fn turn_by_the_angles_in_force(
     let speed = |time: f64| shaft.motion(time).speed.abs();
     let fastest = instants.fold(start, |best, t| if speed(t) > speed(best) { t } else { best });
     let condition = SpatialCondition::at(setup, fastest);
-    let equilibrium = SpatialEquilibrium::find(&stage.structure, setup, &condition)?;
+    let equilibrium = SpatialEquilibrium::find(&stage.structure, setup, &condition)
+        .map_err(|error| nothing_rests(setup, speed(fastest), &condition, &error))?;
     accept(&run.seats, setup, &equilibrium, "at the highest speed")?;
     let mut orders = Vec::with_capacity(setup.bearings.len());
     for ((own, seat), balls) in setup.bearings.iter_mut().zip(&run.seats).zip(&equilibrium.bearings) {

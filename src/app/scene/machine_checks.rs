@@ -5,8 +5,12 @@ use crate::app::case::{Case, ContactStiffness, Defect, Rule, Seat};
 use crate::app::error::ComputeError;
 use crate::bearing::Race;
 use crate::bearing::kinematics::DefectOrders;
+use crate::numerics::Brief;
 use crate::report::significant;
-use crate::system::{BallsInertia, BearingInPlace, Formulation, SpatialEquilibrium, SpatialSetup};
+use crate::system::{
+    BallsInertia, BearingInPlace, Formulation, SpatialCondition, SpatialEquilibrium, SpatialSetup, SystemError,
+};
+use std::f64::consts::TAU;
 
 /// Change of an order, relative, that is told: a tooth of a verdict's comb is as wide by the slip that it allows for.
 const SPREAD: f64 = 1e-3;
@@ -32,6 +36,29 @@ pub(super) fn accept(
 ) -> Result<(), ComputeError> {
     by_hertz(seats, setup, rest)
         .try_for_each(|(seat, contacts)| contacts.iter().try_for_each(|contact| contact.accept(&seat.key(""), when)))
+}
+
+/// Why nothing rests at the highest speed of a run, rad/s.
+pub(super) fn nothing_rests(
+    setup: &SpatialSetup,
+    speed: f64,
+    condition: &SpatialCondition,
+    error: &SystemError,
+) -> ComputeError {
+    let forces = setup.bearings.iter().zip(&condition.cage_speeds).map(|(own, cage)| {
+        let law = own.bearing.law();
+        law.mass * cage * cage * law.grooves.outer_centres
+    });
+    ComputeError::Failed {
+        what: format!(
+            "equilibrium at the highest speed of the run, {} rpm: {error}",
+            Brief::rounded(60.0 * speed / TAU, 4)
+        ),
+        help: Some(format!(
+            "each ball presses on its outer race with up to {} N by its centrifugal force: check speed.profile, shaft.loads and the bearings",
+            significant(forces.fold(0.0, f64::max), 3)
+        )),
+    }
 }
 
 /// Refuses a bearing that is pushed against the way in which it holds thrust: it would come apart, and the model has the other shoulder.
