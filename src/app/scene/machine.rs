@@ -27,6 +27,10 @@ use nalgebra::Vector2;
 /// Instants among which the highest speed of a run is looked for.
 const INSTANTS: u32 = 64;
 
+/// Rounds of cage and contact angles, which make each other at high speed, and the change of the cage's order that ends them, relative.
+const ROUNDS: usize = 20;
+const SETTLED: f64 = 1e-6;
+
 /// How far from one line centres of bearings may be, m, and how far from parallel their axes, rad: what is written in six digits.
 const OFF_LINE: f64 = 1e-7;
 const OFF_AXIS: f64 = 1e-6;
@@ -289,24 +293,31 @@ fn turn_by_the_angles_in_force(
     let instants = (0..=INSTANTS).map(at);
     let speed = |time: f64| shaft.motion(time).speed.abs();
     let fastest = instants.fold(start, |best, t| if speed(t) > speed(best) { t } else { best });
-    let condition = SpatialCondition::at(setup, fastest);
-    let equilibrium = SpatialEquilibrium::find(&stage.structure, setup, &condition)
-        .map_err(|error| nothing_rests(setup, speed(fastest), &condition, &error))?;
-    accept(&run.seats, setup, &equilibrium, "at the highest speed")?;
-    let mut orders = Vec::with_capacity(setup.bearings.len());
-    for ((own, seat), balls) in setup.bearings.iter_mut().zip(&run.seats).zip(&equilibrium.bearings) {
-        let Some(asked) = seat.bearing else { continue };
-        let geometry = *own.bearing.geometry();
-        let ratio = cage_ratio(&own.bearing, balls);
-        if let Some(ratio) = ratio {
-            own.cage = cage_of(run.case, seat, asked, &own.bearing, ratio)?;
+    let mut orders: Vec<DefectOrders> = Vec::new();
+    for _ in 0..ROUNDS {
+        let condition = SpatialCondition::at(setup, fastest);
+        let equilibrium = SpatialEquilibrium::find(&stage.structure, setup, &condition)
+            .map_err(|error| nothing_rests(setup, speed(fastest), &condition, &error))?;
+        accept(&run.seats, setup, &equilibrium, "at the highest speed")?;
+        let before = std::mem::take(&mut orders);
+        for ((own, seat), balls) in setup.bearings.iter_mut().zip(&run.seats).zip(&equilibrium.bearings) {
+            let Some(asked) = seat.bearing else { continue };
+            let geometry = *own.bearing.geometry();
+            let ratio = cage_ratio(&own.bearing, balls);
+            if let Some(ratio) = ratio {
+                own.cage = cage_of(run.case, seat, asked, &own.bearing, ratio)?;
+            }
+            let free = 0.5 * (1.0 - geometry.diameter_ratio());
+            orders.push(DefectOrders::of_cage(
+                f64::from(geometry.balls()),
+                geometry.diameter_ratio(),
+                ratio.unwrap_or(free),
+            ));
         }
-        let free = 0.5 * (1.0 - geometry.diameter_ratio());
-        orders.push(DefectOrders::of_cage(
-            f64::from(geometry.balls()),
-            geometry.diameter_ratio(),
-            ratio.unwrap_or(free),
-        ));
+        let alike = |(old, new): (&DefectOrders, &DefectOrders)| (new.cage / old.cage - 1.0).abs() <= SETTLED;
+        if !before.is_empty() && before.iter().zip(&orders).all(alike) {
+            break;
+        }
     }
     Ok(orders)
 }
