@@ -60,10 +60,12 @@ pub(crate) fn explain_run(case: &Case, watch: &impl Watch) -> Result<(ModelChoic
     let (choice, doubts) = match case.asked_run()? {
         AskedRun::InPlane(run) => {
             let scene = Scene::build(run, watch)?;
+            watch.stage("choose the model");
             (ModelChoice::of_case(run, &scene)?, scene.doubts)
         }
         AskedRun::InSpace(spatial, asked) => {
             let scene = MachineScene::build(&spatial, [asked.start, asked.end], watch)?;
+            watch.stage("choose the model");
             (ModelChoice::in_space(case, asked, &scene)?, scene.doubts)
         }
     };
