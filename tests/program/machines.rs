@@ -112,6 +112,21 @@ fn bearings_have_labels_orders_and_verdicts_of_their_own() {
     assert_eq!(result.simulation.record.balls, 14);
 }
 
+/// The angles follow the centrifugal force; the cage's orders are those of the highest speed, which is told with the speed itself.
+#[test]
+fn orders_that_a_run_up_changes_are_told() {
+    let told = |hz: &str| {
+        let speed = format!("speed.profile=[{{time=0,hz=50}},{{time=1e-4,hz={hz}}}]");
+        run(&["transient.end=1e-4", "transient.modes=12", &speed]).warnings.join("\n")
+    };
+    let fast = told("12e3");
+    let sentence = "cage and verdicts go by the contact angles at the highest speed, BPFO";
+    assert!(fast.contains(sentence) && fast.contains("those at the start of the run make it"), "{fast}");
+    assert!(fast.contains("no ball bearing of 0.0075105 m mean diameter runs as fast"), "{fast}");
+    let slow = told("60");
+    assert!(!slow.contains(sentence) && !slow.contains("runs as fast"), "{slow}");
+}
+
 /// Gyroscopic moments split the shaft's modes into forward and backward ones.
 #[test]
 fn a_turning_shaft_has_forward_and_backward_modes() {
@@ -141,6 +156,11 @@ fn what_a_shaft_in_space_cannot_have_is_refused_with_its_key() {
     let wave = "bearings.0.bearing.waviness=[{on='outer',order=9,amplitude=1e-7}]";
     assert!(refusal(SPINDLE, &[wave]).contains("bearings[0].bearing.waviness"));
     assert!(refusal(SPINDLE, &["shaft.polar_inertia=1"]).contains("shaft.polar_inertia"));
+    let torn = refusal(SPINDLE, &["speed.profile=[{time=0,rpm=1e7}]"]);
+    assert!(torn.starts_with("bearings[0].bearing.outer_groove_radius: the contact of a ball"), "{torn}");
+    assert!(torn.contains("at the highest speed"), "{torn}");
+    let crushed = refusal(SPINDLE, &["shaft.loads=[{force=[0,-2e4,15],at=-8e-3}]"]);
+    assert!(crushed.starts_with("bearings[0].bearing.inner_groove_radius: the contact of a ball"), "{crushed}");
     let single = ["shaft.transverse_inertia=1e-5", "bearing.preload={displacement=1e-6}"];
     assert!(refusal("housings/end_shield.toml", &single).contains("bearing.preload"));
     let in_plane = ["shaft.transverse_inertia=1e-5", "shaft.loads=[{force=[0,0,5]}]"];

@@ -1,9 +1,9 @@
 //! What is simulated: structure and bearing of a case, at rest where they start, and what of them a run models.
 
 use super::bearing::{contacts_of, setup_of};
+use super::contacts::accept_contacts;
 use super::damping::{damping, refuse_structural_damping};
 use super::doubts;
-use super::doubts::accept_contacts;
 use super::start::starts_in_damage;
 use super::structure::{CoupledStructure, needed_modes};
 use crate::app::case::RunCase;

@@ -3,25 +3,30 @@
 use super::bearing::{defects, slip, speed, stiffness};
 use super::damping::{damping, refuse_structural_damping};
 use super::doubts::doubts;
+use super::machine_checks::{
+    accept, by_hertz, nothing_rests, other_orders, refuse_other_shoulder, refuse_plane_keys, starts_in_damage,
+};
 use super::spatial::{spatial_bearing, spatial_load};
 use super::structure::{CoupledStructure, needed_modes};
 use crate::app::case::{self, Case, Defect, DentDefect, Preload, Rule, Seat, SpatialCase};
 use crate::app::error::ComputeError;
 use crate::app::scene::RunModel;
 use crate::bearing::kinematics::DefectOrders;
-use crate::bearing::spatial::{AcrossGroove, GrooveDefect, SpatialBearing, Thrust};
+use crate::bearing::spatial::{AcrossGroove, GrooveDefect, SpatialBearing};
 use crate::bearing::{BearingError, Cage, Race, RatingLife};
 use crate::fe::model::RingSeat;
 use crate::fe::reduction::frf::ModalDamping;
 use crate::numerics::Watch;
 use crate::numerics::ode::State;
-use crate::report::significant;
 use crate::system::{
-    BallsInertia, BearingInPlace, Formulation, LoadProfile, LoadedModes, ModeSelection, SpatialBallLoad,
-    SpatialCondition, SpatialEquilibrium, SpatialLoad, SpatialSetup, SpatialShaft, SpatialSystem, StructureModes,
-    Unbalance, with_static_vectors,
+    BearingInPlace, LoadProfile, LoadedModes, ModeSelection, SpatialBallLoad, SpatialCondition, SpatialEquilibrium,
+    SpatialLoad, SpatialSetup, SpatialShaft, SpatialSystem, StructureModes, Unbalance, with_static_vectors,
 };
 use nalgebra::Vector2;
+
+/// Rounds of cage and contact angles, which make each other at high speed, and the change of the cage's order that ends them, relative.
+const ROUNDS: usize = 20;
+const SETTLED: f64 = 1e-6;
 
 /// How far from one line centres of bearings may be, m, and how far from parallel their axes, rad: what is written in six digits.
 const OFF_LINE: f64 = 1e-7;
@@ -88,12 +93,22 @@ impl MachineScene {
         let orders = turn_by_the_angles_in_force(run, [start, end], &stage, &mut setup)?;
         let condition = SpatialCondition::at(&setup, start);
         let equilibrium = SpatialEquilibrium::find(&stage.structure, &setup, &condition)?;
+        accept(&run.seats, &setup, &equilibrium, "at rest")?;
         refuse_other_shoulder(case, &run.seats, &setup, &equilibrium)?;
         let mut doubts = doubts(case, stage.bodies.mesh_and_model(), None)?;
+        doubts.extend(by_hertz(&run.seats, &setup, &equilibrium).flat_map(|(seat, contacts)| {
+            let found = contacts.into_iter().flat_map(|contact| contact.doubts());
+            found.map(|doubt| seat.told(doubt)).collect::<Vec<_>>()
+        }));
         if equilibrium.directions_down > 0 {
             doubts.push("the equilibrium that the run starts from is not stable: the shaft leaves it at the smallest push; other loads, more preload or another bearing.first_ball_deg start from a stable one".to_owned());
         }
         doubts.extend(starts_in_damage(&setup, start));
+        let at_end = SpatialEquilibrium::find(&stage.structure, &setup, &SpatialCondition::at(&setup, end)).ok();
+        let ends = [("start", Some(&equilibrium)), ("end", at_end.as_ref())];
+        doubts.extend(
+            ends.into_iter().filter_map(|(when, rest)| other_orders(&setup, &orders, &orders_at(&setup, rest?), when)),
+        );
         let mut scene = Self { stage, setup, orders, damping: damping(case)?, start, equilibrium, doubts };
         for (own, balls) in scene.setup.bearings.iter().zip(&scene.equilibrium.bearings) {
             if let Err(error) = scene.rating_life(own, balls) {
@@ -129,10 +144,20 @@ impl MachineScene {
     pub(crate) fn largest_pressure(own: &BearingInPlace, balls: &[SpatialBallLoad]) -> f64 {
         let pressures = balls.iter().flat_map(|ball| {
             [Race::Inner, Race::Outer].into_iter().enumerate().map(|(index, race)| {
-                own.bearing.peak_pressure(race, ball.load[index], ball.contact_angle[index].unwrap_or(0.0))
+                let hertz = own.bearing.hertz_at(race, ball.contact_angle[index].unwrap_or(0.0));
+                hertz.map_or(0.0, |hertz| hertz.patch(ball.load[index]).peak_pressure)
             })
         });
         pressures.fold(0.0, f64::max)
+    }
+
+    /// The equilibrium, then the others that the loads allow.
+    ///
+    /// # Errors
+    /// [`ComputeError::System`] where nothing rests.
+    pub(crate) fn equilibria(&self) -> Result<Vec<SpatialEquilibrium>, ComputeError> {
+        let condition = SpatialCondition::at(&self.setup, self.start);
+        Ok(SpatialEquilibrium::find_all(&self.stage.structure, &self.setup, &condition)?)
     }
 
     /// Modes linearised at the equilibrium, of all modes of the structure that are known.
@@ -192,73 +217,6 @@ impl MachineScene {
         let condition = SpatialCondition::at(&self.setup, time);
         let rest = SpatialEquilibrium::in_modes(&self.stage.structure, basis, &self.setup, &condition)?;
         Ok(system.state_at(time, &rest, basis))
-    }
-}
-
-/// Refuses a bearing that is pushed against the way in which it holds thrust: it would come apart, and the model has the other shoulder.
-fn refuse_other_shoulder(
-    case: &Case,
-    seats: &[Seat<'_>],
-    setup: &SpatialSetup,
-    rest: &SpatialEquilibrium,
-) -> Result<(), ComputeError> {
-    for ((seat, own), balls) in seats.iter().zip(&setup.bearings).zip(&rest.bearings) {
-        let along: f64 = balls.iter().map(|ball| ball.load[0] * ball.contact_angle[0].unwrap_or(0.0).sin()).sum();
-        let thrust = own.bearing.thrust();
-        if thrust != Thrust::Both && along * thrust.sign() < 0.0 {
-            let rule = Rule::found(
-                format!(
-                    "{} N of thrust at rest against the way in which the bearing holds it",
-                    significant(along.abs(), 3)
-                ),
-                "bearings that hold each other: thrust both ways, or preload above the axial load",
-            );
-            return Err(case.broken(&rule.at(seat.key("bearing.thrust"))).into());
-        }
-    }
-    Ok(())
-}
-
-/// That a ball starts on a defect, a sentence a bearing: the rest that a run begins with is one on whole races.
-fn starts_in_damage(setup: &SpatialSetup, start: f64) -> Vec<String> {
-    let told = setup.bearings.iter().filter(|own| {
-        let cage = own.cage.motion(start).angle;
-        let shaft = own.cage.shaft().angle(start);
-        let balls = (0..own.bearing.balls()).map(|ball| own.cage.ball_angle(cage, ball as u32));
-        let on = |angle: f64| {
-            own.bearing.defects().iter().any(|defect| {
-                let turned = if defect.race() == Race::Inner { shaft } else { 0.0 };
-                defect.profile().contains(angle - turned)
-            })
-        };
-        balls.into_iter().any(on)
-    });
-    let told = told.map(|own| {
-        let name = if own.label.is_empty() { "the bearing".to_owned() } else { format!("bearing {}", own.label) };
-        format!("a ball of {name} starts on a defect: it falls into it at the first instant, and the first samples ring; another bearing.first_ball_deg begins beside it")
-    });
-    told.collect()
-}
-
-/// Refuses what of a bearing only the model in the plane knows.
-fn refuse_plane_keys(case: &Case, seat: &Seat<'_>) -> Result<(), ComputeError> {
-    let Some(bearing) = seat.bearing else { return Ok(()) };
-    let given = [
-        ("formulation", bearing.formulation != Formulation::Consistent),
-        ("balls_inertia", bearing.balls_inertia == Some(BallsInertia::QuasiStatic)),
-        ("waviness", !bearing.waviness.is_empty()),
-        ("ball_radius_differences", !bearing.ball_radius_differences.is_empty()),
-        ("defects", bearing.defects.iter().any(|defect| matches!(defect, Defect::Flat(_)))),
-    ];
-    match given.into_iter().find(|(_, given)| *given) {
-        None => Ok(()),
-        Some((key, _)) => {
-            let rule = Rule::found(
-                "a key of the bearing in its plane",
-                "none where the shaft has several bearings, axial load or a contact angle",
-            );
-            Err(case.broken(&rule.at(seat.key(&format!("bearing.{key}")))).into())
-        }
     }
 }
 
@@ -397,25 +355,46 @@ fn turn_by_the_angles_in_force(
     stage: &CoupledStructure,
     setup: &mut SpatialSetup,
 ) -> Result<Vec<DefectOrders>, ComputeError> {
-    let fastest = setup.bearings[0].cage.shaft().fastest_instant(start, end);
-    let condition = SpatialCondition::at(setup, fastest);
-    let equilibrium = SpatialEquilibrium::find(&stage.structure, setup, &condition)?;
-    let mut orders = Vec::with_capacity(setup.bearings.len());
-    for ((own, seat), balls) in setup.bearings.iter_mut().zip(&run.seats).zip(&equilibrium.bearings) {
-        let Some(asked) = seat.bearing else { continue };
-        let geometry = *own.bearing.geometry();
-        let ratio = cage_ratio(&own.bearing, balls);
-        if let Some(ratio) = ratio {
-            own.cage = cage_of(run.case, seat, asked, &own.bearing, ratio)?;
+    let shaft = setup.bearings[0].cage.shaft().clone();
+    let speed = |time: f64| shaft.motion(time).speed.abs();
+    let fastest = shaft.fastest_instant(start, end);
+    let mut orders: Vec<DefectOrders> = Vec::new();
+    for _ in 0..ROUNDS {
+        let condition = SpatialCondition::at(setup, fastest);
+        let equilibrium = SpatialEquilibrium::find(&stage.structure, setup, &condition)
+            .map_err(|error| nothing_rests(setup, speed(fastest), &condition, &error))?;
+        accept(&run.seats, setup, &equilibrium, "at the highest speed")?;
+        let before = std::mem::take(&mut orders);
+        for ((own, seat), balls) in setup.bearings.iter_mut().zip(&run.seats).zip(&equilibrium.bearings) {
+            let Some(asked) = seat.bearing else { continue };
+            let geometry = *own.bearing.geometry();
+            let ratio = cage_ratio(&own.bearing, balls);
+            if let Some(ratio) = ratio {
+                own.cage = cage_of(run.case, seat, asked, &own.bearing, ratio)?;
+            }
+            let free = 0.5 * (1.0 - geometry.diameter_ratio());
+            orders.push(DefectOrders::of_cage(
+                f64::from(geometry.balls()),
+                geometry.diameter_ratio(),
+                ratio.unwrap_or(free),
+            ));
         }
-        let free = 0.5 * (1.0 - geometry.diameter_ratio());
-        orders.push(DefectOrders::of_cage(
-            f64::from(geometry.balls()),
-            geometry.diameter_ratio(),
-            ratio.unwrap_or(free),
-        ));
+        let alike = |(old, new): (&DefectOrders, &DefectOrders)| (new.cage / old.cage - 1.0).abs() <= SETTLED;
+        if !before.is_empty() && before.iter().zip(&orders).all(alike) {
+            break;
+        }
     }
     Ok(orders)
+}
+
+/// Orders of each bearing at the contact angles of a rest; `None` where no ball is loaded.
+fn orders_at(setup: &SpatialSetup, rest: &SpatialEquilibrium) -> Vec<Option<DefectOrders>> {
+    let orders = |(own, balls): (&BearingInPlace, &Vec<SpatialBallLoad>)| {
+        let geometry = own.bearing.geometry();
+        let ratio = cage_ratio(&own.bearing, balls)?;
+        Some(DefectOrders::of_cage(f64::from(geometry.balls()), geometry.diameter_ratio(), ratio))
+    };
+    setup.bearings.iter().zip(&rest.bearings).map(orders).collect()
 }
 
 /// Turns of the cage in a turn of the shaft: the mean of the balls' rolling, by their loads; `None` where no ball is loaded.

@@ -218,20 +218,23 @@ fn mass_of(case: &Case, asked: &case::Housing, model: &HousingModel) -> f64 {
 /// A shaft that is lighter than the balls, farther off balance than its race or faster than any.
 pub(super) fn shaft(case: &Case) -> Vec<String> {
     let mut found = Vec::new();
-    let (Some(shaft), Some(bearing)) = (&case.shaft, &case.bearing) else {
+    let bearings: Vec<&case::Bearing> = case.seats().iter().filter_map(|seat| seat.bearing).collect();
+    let (Some(shaft), [first, ..]) = (&case.shaft, &bearings[..]) else {
         return found;
     };
-    let balls = bearing.balls as f64 * case.ball_mass().unwrap_or(0.0);
+    let mass = |bearing: &&case::Bearing| bearing.balls as f64 * case.mass_of_ball(bearing).unwrap_or(0.0);
+    let balls = bearings.iter().map(mass).sum();
     if shaft.mass < balls {
         found.push(format!(
-            "shaft.mass is {} and the {} balls have {} together: the inner ring alone has more; check that it is in kg, with all that the shaft carries on this bearing",
+            "shaft.mass is {} and the {} balls have {} together: the inner ring alone has more; check that it is in kg, with all that the shaft carries on {}",
             mass_in_words(shaft.mass, 3),
-            bearing.balls,
-            mass_in_words(balls, 3)
+            bearings.iter().map(|bearing| bearing.balls).sum::<usize>(),
+            mass_in_words(balls, 3),
+            if bearings.len() > 1 { "its bearings" } else { "this bearing" }
         ));
     }
     let off = shaft.unbalance / shaft.mass;
-    if off > bearing.inner_race_radius {
+    if off > first.inner_race_radius {
         found.push(format!(
             "shaft.unbalance is {} kg m and puts the centre of a shaft of {} off its axis by {}, beyond bearing.inner_race_radius: check that it is in kg m (1 g mm is 1e-6)",
             short(shaft.unbalance),
@@ -241,7 +244,8 @@ pub(super) fn shaft(case: &Case) -> Vec<String> {
     }
     let fastest =
         case.speed.iter().flat_map(|speed| &speed.profile).map(|knot| knot.frequency_hz.abs()).fold(0.0, f64::max);
-    let pitch = bearing.inner_race_radius + bearing.outer_race_radius;
+    let pitches = bearings.iter().map(|bearing| bearing.inner_race_radius + bearing.outer_race_radius);
+    let pitch = pitches.fold(0.0, f64::max);
     if 1e3 * pitch * 60.0 * fastest > SPEED {
         found.push(format!(
             "speed.profile reaches {} Hz ({} rpm): no ball bearing of {} mean diameter runs as fast; check which of `hz` and `rpm` is meant",

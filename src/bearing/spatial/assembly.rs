@@ -10,7 +10,7 @@ use super::defect::{DamagedGroove, GrooveDefect};
 use super::groove::{Grooves, Thrust};
 use super::ring::{InnerFrame, RingDisplacement};
 use crate::bearing::error::{BearingError, positive, refused};
-use crate::bearing::hertz::ContactPatch;
+use crate::bearing::hertz::{ContactPatch, HertzStiffness};
 use crate::bearing::life::{LoadRating, RatingLife};
 use crate::bearing::{BearingGeometry, ContactStiffness, Race};
 use nalgebra::{Matrix2, SMatrix, SVector, Vector2};
@@ -174,11 +174,10 @@ impl SpatialBearing {
         self.thrust
     }
 
-    /// Largest pressure of a contact under a load (N) at a contact angle (rad), Pa; zero without load.
-    pub(crate) fn peak_pressure(&self, race: Race, load: f64, angle: f64) -> f64 {
+    /// Hertz's contact at a contact angle (rad); `None` for curvatures that make none.
+    pub(crate) fn hertz_at(&self, race: Race, angle: f64) -> Option<HertzStiffness> {
         let modulus = self.moduli[usize::from(race == Race::Outer)];
-        let hertz = hertz_at(&self.geometry, race, angle.cos().max(0.0), modulus);
-        hertz.map_or(0.0, |hertz| hertz.patch(load).peak_pressure)
+        hertz_at(&self.geometry, race, angle.cos().max(0.0), modulus).ok()
     }
 
     /// Load rating, and life under the loads of all balls at both races (N), with the largest contact pressure (Pa), at a speed of the

@@ -47,6 +47,16 @@ impl Fault {
         }
     }
 
+    /// At which of these orders it strikes.
+    pub(crate) fn order(self, orders: &DefectOrders) -> f64 {
+        match self {
+            Self::OuterRace => orders.outer,
+            Self::InnerRace => orders.inner,
+            Self::Ball => orders.ball_defect,
+            Self::Cage => orders.cage,
+        }
+    }
+
     /// What the field calls its line. BSF is the spin of a ball, and a flaw meets both races once a spin.
     pub(crate) fn line(self) -> &'static str {
         match self {
@@ -98,7 +108,7 @@ impl FaultOrders {
     /// # Errors
     /// As [`new`](Self::new).
     pub fn of(orders: &DefectOrders, error: f64) -> Result<Self, DiagnosisError> {
-        let known = [orders.outer, orders.inner, orders.ball_defect, orders.cage];
+        let known = Fault::ALL.map(|fault| fault.order(orders));
         // N (1 -+ gamma) / 2
         let gamma = (orders.inner - orders.outer) / (orders.inner + orders.outer);
         Ok(Self { ball: (1.0 + gamma * gamma) / (1.0 - gamma * gamma), ..Self::new(known.map(Some), error)? })

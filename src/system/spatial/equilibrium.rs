@@ -7,7 +7,8 @@
 
 use super::pose::Pose;
 use super::setup::{SHAFT, SpatialSetup};
-use crate::bearing::spatial::{Axis, InnerFrame, MountedBearing, RigidShaft, RingDisplacement, ShaftLoad};
+use crate::bearing::BearingError;
+use crate::bearing::spatial::{Axis, InnerFrame, MountedBearing, RigidShaft, RingDisplacement, ShaftLoad, Thrust};
 use crate::numerics::linalg::DenseMatrix;
 use crate::system::equilibrium::{Evaluation, Found, HELD, Potential, Search};
 use crate::system::{Structure, StructureModes, SystemError};
@@ -80,7 +81,7 @@ impl SpatialCondition {
 }
 
 /// The potential.
-struct Problem<'a> {
+pub(super) struct Problem<'a> {
     setup: &'a SpatialSetup,
     condition: &'a SpatialCondition,
     /// Bearing, cosine and sine of the azimuth, and the azimuth of each ball.
@@ -90,13 +91,13 @@ struct Problem<'a> {
     /// Displacement under the structure's weight [2 balls], m.
     weight: DVector<f64>,
     /// Friction on each coordinate, N.
-    friction: DVector<f64>,
+    pub friction: DVector<f64>,
     /// What tilts are multiplied with, m.
     arm: f64,
 }
 
 /// Normal forces and angles of a ball, as [`SpatialBallLoad`] has them.
-type Contacts = Vec<([f64; 2], [Option<f64>; 2])>;
+pub(super) type Contacts = Vec<([f64; 2], [Option<f64>; 2])>;
 
 impl SpatialEquilibrium {
     /// Finds where the loads lead from the rest of the same shaft in rigid outer rings.
@@ -143,25 +144,31 @@ impl SpatialEquilibrium {
         response: impl Fn(&DenseMatrix) -> Result<DenseMatrix, SystemError>,
     ) -> Result<Self, SystemError> {
         let (mut problem, loads, flexibility) = Problem::new(structure, setup, condition, least, response)?;
-        let mut found = problem.search(problem.start(&flexibility), true)?;
-        let mut iterations = found.iterations;
-        for _ in 0..ROUNDS {
-            let friction = problem.friction_at(&found.z);
-            let change = (&friction - &problem.friction).amax();
-            problem.friction = friction;
-            if change <= FRICTION_TOLERANCE * problem.force_scale() {
-                break;
-            }
-            found = problem.search(found.z, true)?;
-            iterations += found.iterations;
-        }
-        Ok(problem.result(&Found { iterations, ..found }, &loads))
+        let start = problem.start(&problem.rest_in_rigid_rings(), &flexibility);
+        let found = problem.settled(start)?;
+        Ok(problem.result(&found, &loads))
+    }
+
+    /// Whether every displacement from it that a contact or the structure feels needs work.
+    pub(crate) fn is_stable(&self) -> bool {
+        self.directions_down == 0
+    }
+
+    /// A bearing that is pushed against the way in which it holds thrust, and by how much (N).
+    pub(crate) fn pushed_apart(&self, setup: &SpatialSetup) -> Option<(usize, f64)> {
+        let bearings = self.bearings.iter().zip(&setup.bearings).enumerate();
+        let mut pushed = bearings.filter_map(|(index, (balls, own))| {
+            let along: f64 = balls.iter().map(|ball| ball.load[0] * ball.contact_angle[0].unwrap_or(0.0).sin()).sum();
+            let thrust = own.bearing.thrust();
+            (thrust != Thrust::Both && along * thrust.sign() < 0.0).then_some((index, along.abs()))
+        });
+        pushed.next()
     }
 }
 
 impl<'a> Problem<'a> {
     /// The problem, the loads behind it (unit forces at the grooves, then the weight [dof x 2 balls + 1]) and the flexibility there.
-    fn new(
+    pub(super) fn new(
         structure: &Structure,
         setup: &'a SpatialSetup,
         condition: &'a SpatialCondition,
@@ -229,6 +236,11 @@ impl<'a> Problem<'a> {
         [x, y, z, a / self.arm, b / self.arm]
     }
 
+    /// The same of the undisplaced shaft.
+    pub(super) fn load_at_rest(&self) -> [f64; 5] {
+        self.load(&RingDisplacement::default())
+    }
+
     fn frame_of(&self, index: usize, shaft: &RingDisplacement, axis: &Axis) -> InnerFrame {
         let own = &self.setup.bearings[index];
         let [dx, dy, dz]: [f64; 3] = axis.moved(own.place).into();
@@ -236,22 +248,51 @@ impl<'a> Problem<'a> {
         InnerFrame::new(&RingDisplacement { translation: [x + dx, y + dy, z + dz - own.offset], tilt: shaft.tilt })
     }
 
-    /// The rest in rigid rings, moved on with the structure; balls that touch the outer race where there is none.
-    fn start(&self, flexibility: &DMatrix<f64>) -> DVector<f64> {
+    /// Goes downhill from a start until the friction stays.
+    pub(super) fn settled(&mut self, start: DVector<f64>) -> Result<Found<Contacts>, SystemError> {
+        self.friction.fill(0.0);
+        let mut found = self.search(start, true)?;
+        let mut iterations = found.iterations;
+        for _ in 0..ROUNDS {
+            let friction = self.friction_at(&found.z);
+            let change = (&friction - &self.friction).amax();
+            self.friction = friction;
+            if change <= FRICTION_TOLERANCE * self.force_scale() {
+                break;
+            }
+            found = self.search(found.z, true)?;
+            iterations += found.iterations;
+        }
+        Ok(Found { iterations, ..found })
+    }
+
+    /// The same shaft in rigid outer rings, with its load.
+    ///
+    /// # Errors
+    /// [`BearingError`] as of [`RigidShaft::new`].
+    pub(super) fn in_rigid_rings(&self) -> Result<(RigidShaft, ShaftLoad), BearingError> {
         let mounted = self.setup.bearings.iter().zip(&self.condition.cage_angles).map(|(own, &cage_angle)| {
             MountedBearing { bearing: own.bearing.clone(), place: own.place, offset: own.offset, cage_angle }
         });
-        let origin = RingDisplacement::default();
-        let [x, y, z, a, b] = self.load(&origin);
+        let [x, y, z, a, b] = self.load_at_rest();
         let load = ShaftLoad { force: [x, y, z], moment: [a * self.arm, b * self.arm], place: 0.0 };
-        let rigid = RigidShaft::new(mounted.collect(), 0.0).and_then(|shaft| shaft.equilibrium(&load));
-        let displacement = rigid.map_or(origin, |found| found.displacement);
-        let axis = Axis::new(&displacement);
+        Ok((RigidShaft::new(mounted.collect(), 0.0)?, load))
+    }
+
+    /// Where that rests; its undisplaced place where it does not.
+    pub(super) fn rest_in_rigid_rings(&self) -> RingDisplacement {
+        let rest = self.in_rigid_rings().and_then(|(shaft, load)| shaft.equilibrium(&load));
+        rest.map_or_else(|_| RingDisplacement::default(), |found| found.displacement)
+    }
+
+    /// A displacement in rigid rings, moved on with the structure; balls that touch the outer race where there is none.
+    pub(super) fn start(&self, displacement: &RingDisplacement, flexibility: &DMatrix<f64>) -> DVector<f64> {
+        let axis = Axis::new(displacement);
         let mut unknowns = DVector::zeros(SHAFT + OF_BALL * self.balls.len());
         let mut forces = DVector::zeros(2 * self.balls.len());
         for (place, &(index, direction, _)) in self.balls.iter().enumerate() {
             let law = self.setup.bearings[index].bearing.law();
-            let plane = self.frame_of(index, &displacement, &axis).plane(direction, law.grooves.outer_centres);
+            let plane = self.frame_of(index, displacement, &axis).plane(direction, law.grooves.outer_centres);
             let touching = law.grooves.seats[1] / law.grooves.centre_distance;
             let free = Vector2::new(law.grooves.radial_gap, law.grooves.axial_gap) * touching;
             let at = law.place(&plane, 0.0).unwrap_or(free);
@@ -291,7 +332,7 @@ impl<'a> Problem<'a> {
     }
 
     /// Friction by the gyroscopic moments of the balls where they are.
-    fn friction_at(&self, z: &DVector<f64>) -> DVector<f64> {
+    pub(super) fn friction_at(&self, z: &DVector<f64>) -> DVector<f64> {
         let mut friction = DVector::zeros(z.len());
         let shaft = self.displacement(z);
         let axis = Axis::new(&shaft);
@@ -332,7 +373,7 @@ impl<'a> Problem<'a> {
     }
 
     /// The equilibrium that a search found; `loads` as [`Problem::new`] gives them.
-    fn result(&self, found: &Found<Contacts>, loads: &DenseMatrix) -> SpatialEquilibrium {
+    pub(super) fn result(&self, found: &Found<Contacts>, loads: &DenseMatrix) -> SpatialEquilibrium {
         let (z, count) = (&found.z, self.balls.len());
         // what holds the structure is what the contacts and the friction do to the grooves
         let moved = DVector::from_fn(2 * count, |k, _| z[SHAFT + OF_BALL * (k / 2) + 2 + k % 2] - self.weight[k]);
@@ -458,7 +499,7 @@ impl Potential for Problem<'_> {
     }
 
     fn force_scale(&self) -> f64 {
-        let load = self.load(&RingDisplacement::default());
+        let load = self.load_at_rest();
         let balls = self.setup.bearings.iter().map(|own| own.bearing.law().mass * 9.81);
         load.iter().map(|part| part * part).sum::<f64>().sqrt().max(balls.fold(0.0, f64::max))
     }

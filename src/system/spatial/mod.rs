@@ -6,6 +6,7 @@
 
 mod ball_forces;
 mod balls;
+mod branches;
 mod damage;
 mod energy;
 mod equilibrium;

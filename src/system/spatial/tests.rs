@@ -404,6 +404,41 @@ fn a_ball_beside_a_dent_misses_it() {
     assert!(apart(&on) > 1e-8, "{:e}", apart(&on));
 }
 
+/// A load straight on a ball in play leans the shaft to either side of it, in rings that give way as in rigid ones; mirror images, with
+/// a saddle between. Where two balls share the load, or the balls are preloaded, there is one equilibrium.
+#[test]
+fn every_equilibrium_over_one_ball_is_found() {
+    let (structure, mut setup) = pair(0.0);
+    setup.shaft = shaft(vec![SpatialLoad { place: 0.0, profile: LoadProfile::constant([0.0, -6.0, 0.0, 0.0, 0.0]) }]);
+    let mut find_all = |play: f64, first: f64| {
+        let geometry = geometry().with_radial_play(play).unwrap();
+        for own in &mut setup.bearings {
+            own.bearing = SpatialBearing::new(geometry, moduli(), Thrust::Both, RaceControl::Outer).unwrap();
+            own.cage = cage(&geometry, first, 0.0);
+            own.offset = 0.0;
+        }
+        let condition = SpatialCondition::at(&setup, 0.0);
+        let all = SpatialEquilibrium::find_all(&structure, &setup, &condition).unwrap();
+        assert_eq!(all[0], SpatialEquilibrium::find(&structure, &setup, &condition).unwrap());
+        all
+    };
+    let all = find_all(5e-6, -TAU / 4.0);
+    // both ends lean alike, or against each other
+    let (stable, saddles): (Vec<_>, Vec<_>) = all.iter().partition(|rest| rest.is_stable());
+    assert_eq!((stable.len(), saddles.len()), (4, 3));
+    let lean = |rest: &SpatialEquilibrium| [-0.0125, 0.0125].map(|place| rest.shaft[0] + place * rest.shaft[4]);
+    for (number, rest) in stable.iter().enumerate() {
+        let [a, b] = lean(rest);
+        // round-off of the forces over the stiffness
+        assert!((a.abs() - b.abs()).abs() < 1e-12 && a.abs() > 1e-6, "{a} {b}");
+        let mirrored = |other: &&&SpatialEquilibrium| (lean(other)[0] + a).abs() + (lean(other)[1] + b).abs() < 1e-12;
+        assert!(stable.iter().position(|other| mirrored(&other)) != Some(number));
+        assert_eq!(stable.iter().filter(mirrored).count(), 1);
+    }
+    assert_eq!(find_all(5e-6, -TAU / 4.0 + TAU / 14.0).len(), 1);
+    assert_eq!(find_all(-1e-6, -TAU / 4.0).len(), 1);
+}
+
 /// The whole scene turned about the axis by the angle between two nodes of a ring: results turn with it.
 #[test]
 fn results_turn_with_the_scene() {

@@ -6,7 +6,7 @@ use super::convergence::{MeshConvergence, MeshSequence, mesh_convergence};
 use crate::app::case::{Case, Linearise, SpatialCase};
 use crate::app::commands::parts::ExpectedMode;
 use crate::app::error::ComputeError;
-use crate::app::scene::doubts::accept_contacts;
+use crate::app::scene::contacts::accept_contacts;
 use crate::app::scene::structure::needed_modes;
 use crate::app::scene::{
     AssembledHousing, CoupledStructure, MachineScene, RingsInHousing, bearing_setup, doubts, race_contacts,

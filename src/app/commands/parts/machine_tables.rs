@@ -1,5 +1,6 @@
 //! A shaft in its bearings, in tables and plots.
 
+use super::without_round_off;
 use crate::app::scene::MachineScene;
 use crate::bearing::RatingLife;
 use crate::bearing::kinematics::DefectOrders;
@@ -92,7 +93,10 @@ fn axial_force(balls: &[SpatialBallLoad]) -> f64 {
 }
 
 /// Where the shaft rests, and what the balls carry.
-pub(crate) fn shaft_at_rest(setup: &SpatialSetup, rest: &SpatialEquilibrium) -> Section {
+pub(crate) fn shaft_at_rest(setup: &SpatialSetup, equilibria: &[SpatialEquilibrium]) -> Section {
+    let Some(rest) = equilibria.first() else {
+        return Section::new("At rest");
+    };
     let names = ["x", "y", "z", "tilt about x", "tilt about y"];
     let columns = [
         Column::text("Coordinate"),
@@ -136,7 +140,7 @@ pub(crate) fn shaft_at_rest(setup: &SpatialSetup, rest: &SpatialEquilibrium) -> 
         loads = loads.curve(curve(&|ball| ball.load[1]));
         angles = angles.curve(curve(&|ball| ball.contact_angle[1].map_or(f64::NAN, f64::to_degrees)));
     }
-    let section = Section::new("At rest").table(table).plot(loads);
+    let section = Section::new("At rest").table(table).plot(loads).table(equilibria_table(equilibria));
     if angles.has_points() { section.plot(angles) } else { section }
 }
 
@@ -155,4 +159,30 @@ pub(crate) fn assumptions_in_space(setup: &SpatialSetup) -> Vec<String> {
         list.push(format!("Contact damping (Hunt-Crossley) up to {} s/m.", significant(damping, 4)));
     }
     list
+}
+
+/// All equilibria that were found.
+fn equilibria_table(equilibria: &[SpatialEquilibrium]) -> Table {
+    let columns = [
+        Column::text("Which"),
+        Column::number("Shaft x", "\u{b5}m"),
+        Column::number("Shaft y", "\u{b5}m"),
+        Column::number("Shaft z", "\u{b5}m"),
+        Column::number("Tilt about x", "mrad"),
+        Column::number("Tilt about y", "mrad"),
+        Column::number("Largest inner force", "N"),
+        Column::text("Kind"),
+    ];
+    let rows = equilibria.iter().enumerate().map(|(number, rest)| {
+        let [x, y, z, a, b] = rest.shaft;
+        let [x, y, z] = without_round_off([x, y, z].map(|x| 1e6 * x)).map(|x| Cell::number(x, 4));
+        let [a, b] = without_round_off([a, b].map(|a| 1e3 * a)).map(|a| Cell::number(a, 4));
+        let largest = rest.bearings.iter().flatten().map(|ball| ball.load[0]).fold(0.0, f64::max);
+        let kind = if rest.is_stable() { "stable" } else { "saddle: the shaft leaves it" };
+        let which = Cell::text(if number == 0 { "taken" } else { "other" });
+        [which, x, y, z, a, b, Cell::number(largest, 4), Cell::text(kind)]
+    });
+    Table::new("Equilibria that were found", columns)
+        .rows(rows)
+        .footnote("The one is taken to which the loads lead from the rest of the same shaft in rigid outer rings.")
 }

@@ -1,6 +1,6 @@
 //! `plummer run`: equilibrium, transient, signals, analysis.
 
-use super::machine::{BearingModel, Machine, PlaneMachine, SpatialMachine};
+use super::machine::{BearingModel, Machine, PlaneMachine, SpatialMachine, at_the_order_of};
 use super::recording::{Checkpoints, InMemory, Recording};
 use super::scalogram::SensorScalogram;
 use super::simulation::{RunEnd, Simulation, Span};
@@ -11,7 +11,7 @@ use crate::app::error::ComputeError;
 use crate::app::scene::{MachineScene, Scene};
 use crate::numerics::Watch;
 use crate::report::significant;
-use crate::signal::diagnosis::{Conclusion, Kinematics};
+use crate::signal::diagnosis::{Conclusion, Fault, Kinematics};
 use crate::system::{EnergyBalance, LoadedModes, RunRecord, Statics};
 
 /// Samples up to which the balance of energy is taken unless the case says otherwise: it takes 4300 to 9700 instructions a sample
@@ -60,10 +60,12 @@ pub(crate) fn explain_run(case: &Case, watch: &impl Watch) -> Result<(ModelChoic
     let (choice, doubts) = match case.asked_run("`run`")? {
         AskedRun::InPlane(run) => {
             let scene = Scene::build(run, watch)?;
+            watch.stage("choose the model");
             (ModelChoice::of_case(run, &scene)?, scene.doubts)
         }
         AskedRun::InSpace(spatial, asked) => {
             let scene = MachineScene::build(&spatial, [asked.start, asked.end], watch)?;
+            watch.stage("choose the model");
             (ModelChoice::in_space(case, asked, &scene)?, scene.doubts)
         }
     };
@@ -118,6 +120,7 @@ fn run_in_space<C: Checkpoints>(
 ) -> Result<RunResult<C::Record>, ComputeError> {
     let case = spatial.case;
     let scene = MachineScene::build(spatial, [asked.start, asked.end], watch)?;
+    let equilibria = scene.equilibria()?;
     watch.stage("linearise");
     let loaded = scene.loaded_modes()?;
     watch.stage("choose the model");
@@ -131,7 +134,7 @@ fn run_in_space<C: Checkpoints>(
     let (system, state) = scene.at_rest(&choice.model, scene.start)?;
     let fraction = |done| watch.fraction(done);
     let simulation = Simulation::kept(system, state, &choice.model, span, energy, checkpoints, fraction)?;
-    let machine = Machine::InSpace(Box::new(SpatialMachine { scene, loaded, damage }));
+    let machine = Machine::InSpace(Box::new(SpatialMachine { scene, equilibria, loaded, damage }));
     watch.stage("analyse");
     Ok(RunResult::analysed(case, machine, BearingModel::in_space(spatial), choice, horizon, simulation))
 }
@@ -181,11 +184,10 @@ impl<R: Recording> RunResult<R> {
 
     /// Every part that a signal names, with its bearing and sensors, in words.
     pub(crate) fn verdict_on_machine(&self) -> String {
-        let mut named: Vec<(String, Vec<&str>)> = Vec::new();
+        let mut named: Vec<((&str, Fault), Vec<&str>)> = Vec::new();
         for window in &self.windows {
             for verdict in window.parts(Conclusion::Named) {
-                let bearing = window.bearing.as_deref().map_or_else(String::new, |label| format!("bearing {label}, "));
-                let part = bearing + verdict.fault.name();
+                let part = (window.bearing.as_deref().unwrap_or_default(), verdict.fault);
                 match named.iter_mut().find(|(known, _)| *known == part) {
                     Some((_, sensors)) => sensors.push(&window.sensor),
                     None => named.push((part, vec![&window.sensor])),
@@ -195,9 +197,22 @@ impl<R: Recording> RunResult<R> {
         if named.is_empty() {
             return "no fault indicated".to_owned();
         }
+        let in_words = |(label, fault): (&str, Fault)| match label {
+            "" => fault.name().to_owned(),
+            label => format!("bearing {label}, {}", fault.name()),
+        };
+        let bearings = self.machine.bearings();
         let told = named.into_iter().map(|(part, mut sensors)| {
             sensors.dedup();
-            format!("{part} (by {})", sensors.join(", "))
+            let alike: Vec<String> = at_the_order_of(&bearings, part).into_iter().map(in_words).collect();
+            let alike = match alike.is_empty() {
+                true => String::new(),
+                false => format!(
+                    "; {} strikes at the same order: the damage that the case has decides, the signals do not",
+                    alike.join(" and ")
+                ),
+            };
+            format!("{} (by {}{alike})", in_words(part), sensors.join(", "))
         });
         told.collect::<Vec<_>>().join("; ")
     }

@@ -5,7 +5,8 @@ use crate::app::commands::analyze::DamageShown;
 use crate::app::scene::{CoupledStructure, MachineScene, Scene};
 use crate::bearing::kinematics::DefectOrders;
 use crate::bearing::{Cage, SpeedProfile};
-use crate::system::{LoadedModes, Statics};
+use crate::signal::diagnosis::Fault;
+use crate::system::{LoadedModes, SpatialEquilibrium, Statics};
 
 /// Orders of two bearings nearer than this, relative, belong together in windows of up to some hundred revolutions.
 const ALIKE: f64 = 5e-3;
@@ -35,6 +36,8 @@ pub struct PlaneMachine {
 pub struct SpatialMachine {
     /// The scene.
     pub scene: MachineScene,
+    /// All equilibria that were found; the first one is taken.
+    pub equilibria: Vec<SpatialEquilibrium>,
     /// Modes linearised where it rests.
     pub loaded: LoadedModes,
     /// Of each bearing what its damage adds to a stretch of the signals, over the RMS without it, the largest sensor's; zero of a sound
@@ -167,5 +170,43 @@ impl Machine {
             }
         }
         found
+    }
+}
+
+/// The parts of other bearings that strike at the order of one, each with its bearing's label.
+pub(super) fn at_the_order_of<'a>(
+    bearings: &[BearingMotion<'a>],
+    (label, fault): (&str, Fault),
+) -> Vec<(&'a str, Fault)> {
+    let Some(own) = bearings.iter().find(|bearing| bearing.label == label) else { return Vec::new() };
+    let order = fault.order(&own.orders);
+    let others = bearings.iter().filter(|other| other.label != label);
+    let parts = others.flat_map(|other| Fault::ALL.map(|part| (other, part)));
+    let near = parts.filter(|(other, part)| (part.order(&other.orders) - order).abs() <= ALIKE * order);
+    near.map(|(other, part)| (other.label, part)).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::bearing::SlipProfile;
+    use crate::bearing::kinematics::BallRow;
+
+    /// Two bearings of one size, one of another, and one whose inner race strikes as often as the outer one of the first.
+    #[test]
+    fn parts_of_other_bearings_at_the_same_order_are_found() {
+        let row = |balls, degrees: f64| BallRow::new(balls, 2e-3, 7.5105e-3, degrees.to_radians()).unwrap().orders();
+        let (speed, slip) = (SpeedProfile::constant(50.0).unwrap(), SlipProfile::constant(0.0).unwrap());
+        let cage = Cage::rolling(0.37, 7, speed, slip, 0.0).unwrap();
+        let alike = row(7, 17.0);
+        let crossed = DefectOrders { inner: alike.outer, ..row(5, 0.0) };
+        let motions = [("A", row(7, 15.0)), ("B", alike), ("C", row(8, 15.0)), ("D", crossed)];
+        let motions = motions.map(|(label, orders)| {
+            let damage = DamageShown::NotCompared;
+            BearingMotion { label, cage: &cage, balls: 7, orders, damage }
+        });
+        let found = at_the_order_of(&motions, ("A", Fault::OuterRace));
+        assert_eq!(found, [("B", Fault::OuterRace), ("D", Fault::InnerRace)]);
+        assert_eq!(at_the_order_of(&motions, ("C", Fault::OuterRace)), []);
     }
 }

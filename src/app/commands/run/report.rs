@@ -87,7 +87,7 @@ pub(crate) fn run_report<R: Recording>(
         .section(Section::new(title).table(bearing_part(&result.machine)))
         .section(match &result.machine {
             Machine::InPlane(machine) => parts::statics_section(&machine.scene.setup, &machine.statics),
-            Machine::InSpace(machine) => parts::shaft_at_rest(&machine.scene.setup, &machine.scene.equilibrium),
+            Machine::InSpace(machine) => parts::shaft_at_rest(&machine.scene.setup, &machine.equilibria),
         })
         .section(Section::new("Computation").facts(computation(result)));
     let imported = stage.bodies.imported.iter();

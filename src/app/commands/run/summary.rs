@@ -47,9 +47,8 @@ pub struct RunSummary<'a> {
     /// Where the run of a bearing in its plane began.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub equilibrium: Option<EquilibriumSummary>,
-    /// Other equilibria of it that were found.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub other_equilibria: Option<Vec<OtherEquilibrium>>,
+    /// Other equilibria that were found.
+    pub other_equilibria: Vec<OtherEquilibrium>,
     /// How often the parts of the bearing in its plane strike in a turn of the shaft.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub defect_orders: Option<DefectOrders>,
@@ -169,9 +168,12 @@ pub struct RunBearingSummary<'a> {
 /// An equilibrium beside that of the run.
 #[derive(Debug, Clone, Serialize, JsonSchema)]
 pub struct OtherEquilibrium {
-    /// Shaft displacement x, y, m.
-    pub shaft_m: [f64; 2],
-    /// Force of the inner race on each ball, N.
+    /// Shaft displacement x, y, and z in space, m.
+    pub shaft_m: Vec<f64>,
+    /// Its tilts about x and y in space, rad.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub tilt_rad: Option<[f64; 2]>,
+    /// Force of the inner race on each ball, N, bearing by bearing.
     pub inner_force_n: Vec<f64>,
     /// Whether it is stable.
     pub stable: bool,
@@ -202,11 +204,6 @@ impl<R: Recording> RunResult<R> {
     pub(crate) fn summary(&self) -> RunSummary<'_> {
         let (stage, simulation) = (self.machine.stage(), &self.simulation);
         let in_plane = self.machine.in_plane();
-        let other = |other: &Equilibrium| OtherEquilibrium {
-            shaft_m: other.shaft,
-            inner_force_n: other.balls.iter().map(|ball| ball.inner).collect(),
-            stable: other.is_stable(),
-        };
         RunSummary {
             method: simulation.method.name(),
             step_s: simulation.step_s(),
@@ -235,7 +232,10 @@ impl<R: Recording> RunResult<R> {
             estimate_looked_s: self.horizon.map(|horizon| horizon.looked_s),
             energy: simulation.energy.map(EnergySummary::of),
             equilibrium: in_plane.map(|machine| EquilibriumSummary::of(&machine.scene.equilibrium)),
-            other_equilibria: in_plane.map(|machine| machine.statics.equilibria.iter().skip(1).map(other).collect()),
+            other_equilibria: match &self.machine {
+                Machine::InPlane(machine) => of_others(&machine.statics.equilibria, OtherEquilibrium::in_plane),
+                Machine::InSpace(machine) => of_others(&machine.equilibria, OtherEquilibrium::in_space),
+            },
             defect_orders: in_plane.map(|machine| machine.scene.setup.geometry.orders()),
             shaft: self.machine.in_space().map(|scene| ShaftSummary::of(&scene.equilibrium)),
             bearings: RunBearingSummary::all_of(&self.machine),
@@ -243,6 +243,31 @@ impl<R: Recording> RunResult<R> {
             superelement: SuperelementSummary::of(&stage.bodies),
             not_analysed: &self.not_analysed,
             warnings: &self.warnings,
+        }
+    }
+}
+
+fn of_others<E>(equilibria: &[E], other: impl Fn(&E) -> OtherEquilibrium) -> Vec<OtherEquilibrium> {
+    equilibria.iter().skip(1).map(other).collect()
+}
+
+impl OtherEquilibrium {
+    fn in_plane(other: &Equilibrium) -> Self {
+        Self {
+            shaft_m: other.shaft.to_vec(),
+            tilt_rad: None,
+            inner_force_n: other.balls.iter().map(|ball| ball.inner).collect(),
+            stable: other.is_stable(),
+        }
+    }
+
+    fn in_space(other: &SpatialEquilibrium) -> Self {
+        let [x, y, z, a, b] = other.shaft;
+        Self {
+            shaft_m: vec![x, y, z],
+            tilt_rad: Some([a, b]),
+            inner_force_n: other.bearings.iter().flatten().map(|ball| ball.load[0]).collect(),
+            stable: other.is_stable(),
         }
     }
 }
