@@ -204,14 +204,24 @@ impl Case {
         place.unwrap_or_else(|_| self.source.path.display().to_string())
     }
 
-    /// Returns the parts that `bearing` needs.
+    /// Returns the parts that `bearing` needs: every bearing with what stands before its keys, and the shaft.
     ///
     /// # Errors
     /// [`CaseError`] with the first table that the case lacks.
-    pub(crate) fn for_bearing(&self) -> Result<(&Bearing, &Shaft), CaseError> {
-        let bearing = self.needed("`bearing`", "[bearing]", self.bearing.as_ref())?;
-        let shaft = self.needed("`bearing`", "[shaft]", self.shaft.as_ref())?;
-        Ok((bearing, shaft))
+    pub(crate) fn for_bearing<'c>(&'c self) -> Result<(Vec<(String, &'c Bearing)>, &'c Shaft), CaseError> {
+        let by = "`bearing`";
+        let bearings = match self.bearings.is_empty() {
+            true => vec![(String::new(), self.needed(by, "[bearing]", self.bearing.as_ref())?)],
+            false => {
+                let of_seat = |seat: Seat<'c>| {
+                    let bearing = self.needed(by, &format!("[{}]", seat.key("bearing")), seat.bearing)?;
+                    Ok((seat.key(""), bearing))
+                };
+                self.seats().into_iter().map(of_seat).collect::<Result<_, CaseError>>()?
+            }
+        };
+        let shaft = self.needed(by, "[shaft]", self.shaft.as_ref())?;
+        Ok((bearings, shaft))
     }
 
     /// Returns the parts that a simulation in time needs, which `by` asks for: of the bearing in its plane where nothing asks for more.

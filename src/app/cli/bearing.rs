@@ -7,6 +7,7 @@ use super::{CliError, Outcome, typed};
 use crate::app::commands::bearing::compute::{shown_degrees, shown_displacement};
 use crate::app::commands::bearing::{BearingResult, bearing_report, compute_bearing};
 use crate::app::commands::parts::without_round_off;
+use crate::bearing::spatial::BearingState;
 use crate::report::significant;
 use std::f64::consts::TAU;
 
@@ -48,10 +49,46 @@ fn summary(result: &BearingResult) -> String {
         let [hx, hy, hz, ha, hb] = holding.map(digits);
         lines.push(format!("held by: ({hx}, {hy}, {hz}) N, ({ha}, {hb}) N m"));
     }
+    for (own, state) in result.bearings.iter().zip(&taken.bearings) {
+        lines.extend(own.named().map(|name| format!("{name}, {} mm along the axis:", digits(1e3 * own.place))));
+        lines.extend(balls(state));
+    }
+    lines.push("stiffness over x, y, z (m), tilt about x, y (rad):".to_owned());
+    let rows: Vec<Vec<String>> = taken
+        .stiffness
+        .iter()
+        .map(|row| without_round_off(*row).iter().map(|&value| digits(value)).collect())
+        .collect();
+    lines.extend(aligned(&rows));
+    for own in &result.bearings {
+        let name = own.named().map_or_else(String::new, |name| format!("{name}: "));
+        if let Some(life) = &own.life {
+            let mut line = format!("{name}rating: C {} N", digits(life.load_rating_n));
+            for (value, before, unit) in [(life.life_mrev, "L10r ", "million revolutions"), (life.life_h, "", "h")] {
+                line += &value.map(|value| format!(", {before}{} {unit}", significant(value, 4))).unwrap_or_default();
+            }
+            lines.push(line);
+        }
+        let orders = own.orders;
+        lines.push(format!(
+            "{name}orders at the mean contact angle of {}\u{b0}: BPFO {}, BPFI {}, BSF {}, FTF {}",
+            significant(shown_degrees(own.contact_angle), 4),
+            digits(orders.outer),
+            digits(orders.inner),
+            digits(orders.ball_spin),
+            digits(orders.cage)
+        ));
+    }
+    lines.join("\n")
+}
+
+/// A bearing's balls under each other.
+fn balls(state: &BearingState) -> Vec<String> {
+    let digits = |value: f64| significant(value, 5);
     let columns = ["azimuth", "load i", "load o", "angle i", "angle o", "MPa i", "MPa o", "spin", "orbit"];
     let units = ["deg", "N", "N", "deg", "deg", "", "", "rpm", "rpm"];
     let mut rows = vec![columns.map(str::to_owned).to_vec(), units.map(str::to_owned).to_vec()];
-    for ball in taken.bearings.iter().flat_map(|state| &state.balls) {
+    for ball in &state.balls {
         let angle =
             |angle: Option<f64>| angle.map_or_else(|| "-".to_owned(), |angle| significant(shown_degrees(angle), 4));
         let rpm = |speed: f64| significant(speed * 60.0 / TAU, 5);
@@ -67,31 +104,7 @@ fn summary(result: &BearingResult) -> String {
             rpm(ball.orbital_speed),
         ]);
     }
-    lines.extend(aligned(&rows));
-    lines.push("stiffness over x, y, z (m), tilt about x, y (rad):".to_owned());
-    let rows: Vec<Vec<String>> = taken
-        .stiffness
-        .iter()
-        .map(|row| without_round_off(*row).iter().map(|&value| digits(value)).collect())
-        .collect();
-    lines.extend(aligned(&rows));
-    if let Some(life) = &result.life {
-        let mut line = format!("rating: C {} N", digits(life.load_rating_n));
-        for (value, before, unit) in [(life.life_mrev, "L10r ", "million revolutions"), (life.life_h, "", "h")] {
-            line += &value.map(|value| format!(", {before}{} {unit}", significant(value, 4))).unwrap_or_default();
-        }
-        lines.push(line);
-    }
-    let orders = result.orders;
-    lines.push(format!(
-        "orders at the mean contact angle of {}\u{b0}: BPFO {}, BPFI {}, BSF {}, FTF {}",
-        significant(shown_degrees(result.contact_angle), 4),
-        digits(orders.outer),
-        digits(orders.inner),
-        digits(orders.ball_spin),
-        digits(orders.cage)
-    ));
-    lines.join("\n")
+    aligned(&rows)
 }
 
 /// Rows with their cells under each other, on the right.

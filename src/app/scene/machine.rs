@@ -6,7 +6,7 @@ use super::doubts::doubts;
 use super::machine_checks::{
     accept, by_hertz, nothing_rests, other_orders, refuse_other_shoulder, refuse_plane_keys, starts_in_damage,
 };
-use super::spatial::{spatial_bearing, spatial_load};
+use super::spatial::{offset, places, spatial_bearing, spatial_load};
 use super::structure::{CoupledStructure, needed_modes};
 use crate::app::case::{self, Case, Defect, DentDefect, Preload, Rule, Seat, SpatialCase};
 use crate::app::error::ComputeError;
@@ -14,7 +14,7 @@ use crate::app::scene::RunModel;
 use crate::bearing::kinematics::DefectOrders;
 use crate::bearing::spatial::{AcrossGroove, GrooveDefect, SpatialBearing};
 use crate::bearing::{BearingError, Cage, Race, RatingLife};
-use crate::fe::model::RingSeat;
+use crate::fe::model::RingFrame;
 use crate::fe::reduction::frf::ModalDamping;
 use crate::numerics::Watch;
 use crate::numerics::ode::State;
@@ -27,10 +27,6 @@ use nalgebra::Vector2;
 /// Rounds of cage and contact angles, which make each other at high speed, and the change of the cage's order that ends them, relative.
 const ROUNDS: usize = 20;
 const SETTLED: f64 = 1e-6;
-
-/// How far from one line centres of bearings may be, m, and how far from parallel their axes, rad: what is written in six digits.
-const OFF_LINE: f64 = 1e-7;
-const OFF_AXIS: f64 = 1e-6;
 
 /// A shaft in its bearings in their housing, and the equilibrium that a simulation starts from.
 #[derive(Debug, Clone)]
@@ -88,7 +84,8 @@ impl MachineScene {
             imported.refuse_structural_damping()?;
         }
         watch.stage("equilibrium");
-        let places = places(case, stage.bodies.rings.seats(), &run.seats)?;
+        let frames: Vec<RingFrame> = stage.bodies.rings.seats().iter().map(|seat| seat.frame).collect();
+        let places = places(case, &frames, &run.seats)?;
         let mut setup = setup_of(run, &places)?;
         let orders = turn_by_the_angles_in_force(run, [start, end], &stage, &mut setup)?;
         let condition = SpatialCondition::at(&setup, start);
@@ -220,37 +217,6 @@ impl MachineScene {
     }
 }
 
-/// Places of the bearings along the first one's axis from its centre, m: they have to be on one line, their angles counted alike.
-fn places(case: &Case, rings: &[RingSeat], seats: &[Seat<'_>]) -> Result<Vec<f64>, ComputeError> {
-    let Some(first) = rings.first() else { return Ok(Vec::new()) };
-    let mut places = Vec::with_capacity(rings.len());
-    for (ring, seat) in rings.iter().zip(seats) {
-        let [x, y, z] = first.frame.point(ring.frame.centre());
-        let off = x.hypot(y);
-        if off > OFF_LINE {
-            let rule = Rule::found(
-                format!("a centre {:.3e} m beside the axis of the first bearing", off),
-                "one on it: a rigid shaft runs through all bearings",
-            );
-            return Err(case.broken(&rule.at(seat.key("ring.tie.centre"))).into());
-        }
-        for (key, local) in [("axis", [0.0, 0.0, 1.0]), ("zero_deg", [1.0, 0.0, 0.0])] {
-            let seen = first.frame.vector(ring.frame.vector_to_mesh(local));
-            let apart = (0..3).map(|k| (seen[k] - local[k]).powi(2)).sum::<f64>().sqrt();
-            if apart > OFF_AXIS {
-                let rule = Rule::found("another direction than that of the first bearing", "the same for all bearings");
-                return Err(case.broken(&rule.at(seat.key(&format!("ring.tie.{key}")))).into());
-            }
-        }
-        if places.iter().any(|place: &f64| (place - z).abs() <= OFF_LINE) {
-            let rule = Rule::found("a centre where another bearing has its own", "a place of its own along the axis");
-            return Err(case.broken(&rule.at(seat.key("ring.tie.centre"))).into());
-        }
-        places.push(z);
-    }
-    Ok(places)
-}
-
 /// Shaft, loads and bearings at these places (m), the cages turning by the free contact angles.
 fn setup_of(run: &SpatialCase<'_>, places: &[f64]) -> Result<SpatialSetup, ComputeError> {
     let (case, shaft) = (run.case, run.shaft);
@@ -264,7 +230,6 @@ fn setup_of(run: &SpatialCase<'_>, places: &[f64]) -> Result<SpatialSetup, Compu
         let place = place - centre;
         let sign = bearing.thrust().sign();
         let offset = match (asked.preload, run.seats.len()) {
-            (None, _) => 0.0,
             (Some(Preload::Force(force)), 1) => {
                 let profile = LoadProfile::constant([0.0, 0.0, sign * force, 0.0, 0.0]);
                 loads.push(SpatialLoad { place, profile });
@@ -277,10 +242,7 @@ fn setup_of(run: &SpatialCase<'_>, places: &[f64]) -> Result<SpatialSetup, Compu
                 );
                 return Err(case.broken(&rule.at(seat.key("bearing.preload"))).into());
             }
-            (Some(Preload::Displacement(displacement)), _) => -sign * displacement,
-            (Some(Preload::Force(force)), _) => {
-                -bearing.axial_displacement(force).map_err(ComputeError::bearing(seat.key("bearing.preload: ")))?
-            }
+            (preload, _) => offset(&bearing, preload).map_err(ComputeError::bearing(seat.key("bearing.preload: ")))?,
         };
         let geometry = *bearing.geometry();
         let free = asked.contact_angle_deg.map_or(0.0, f64::to_radians);

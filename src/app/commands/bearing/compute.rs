@@ -1,12 +1,12 @@
-//! `plummer bearing`: where the shaft rests, and what becomes of it with load, speed and preload.
+//! `plummer bearing`: where the shaft rests in its bearings, and what becomes of it with load, speed and preload.
 
+use super::doubts::doubts;
 use crate::app::case::{Case, Preload};
 use crate::app::commands::parts::without_round_off;
 use crate::app::error::ComputeError;
-use crate::app::scene::spatial::SpatialScene;
+use crate::app::scene::spatial::{OwnBearing, SpatialScene};
 use crate::bearing::kinematics::{BallRow, DefectOrders};
-use crate::bearing::life::STATIC_PRESSURE;
-use crate::bearing::spatial::{BallState, RingDisplacement, ShaftEquilibrium, ShaftLoad, Thrust};
+use crate::bearing::spatial::{BallState, BearingState, RingDisplacement, ShaftEquilibrium, ShaftLoad, Thrust};
 use crate::bearing::{BearingError, RatingLife};
 use crate::numerics::Watch;
 use schemars::JsonSchema;
@@ -31,30 +31,41 @@ pub struct BearingResult {
     pub time_s: f64,
     /// Load on the shaft, weight and preload included.
     pub load: ShaftLoad,
-    /// Thrust that the bearing holds.
+    /// Every bearing, in the order of the case.
+    pub bearings: Vec<BearingAtRest>,
+    /// The equilibrium to which the load leads, then the others that were found.
+    pub equilibria: Vec<ShaftEquilibrium>,
+    /// Over the factor of the load.
+    pub over_load: Vec<CurvePoint>,
+    /// Over the speed, rpm; empty without speed.
+    pub over_speed: Vec<CurvePoint>,
+    /// Over the preload of the first bearing, the others' in proportion: a force, N, or a displacement, m, where the case gives one.
+    pub over_preload: Vec<CurvePoint>,
+    /// Whether the preload is a displacement.
+    pub preload_is_displacement: bool,
+    /// What of the model may be meant otherwise, a sentence each.
+    pub doubts: Vec<String>,
+}
+
+/// A bearing where the shaft rests.
+#[derive(Debug, Clone)]
+pub struct BearingAtRest {
+    /// What results call it; empty for the only one.
+    pub label: String,
+    /// Along the axis from the first one's centre, m.
+    pub place: f64,
+    /// Thrust that it holds.
     pub thrust: Thrust,
-    /// Radial play, m, and free contact angle, rad, where there is one.
+    /// Radial play, m.
     pub play: f64,
     /// Free contact angle, rad; `None` for a bearing without play.
     pub free_contact_angle: Option<f64>,
-    /// The equilibrium to which the load leads, then the others that were found.
-    pub equilibria: Vec<ShaftEquilibrium>,
     /// Mean contact angle of the balls under load, each weighted by its load at the inner race, rad.
     pub contact_angle: f64,
     /// Orders at that angle.
     pub orders: DefectOrders,
     /// Load rating and rating life; `None` where the standard does not hold, which the doubts say.
     pub life: Option<RatingLife>,
-    /// Over the factor of the load.
-    pub over_load: Vec<CurvePoint>,
-    /// Over the speed, rpm; empty without speed.
-    pub over_speed: Vec<CurvePoint>,
-    /// Over the preload: a force, N, or a displacement, m, where the case gives one.
-    pub over_preload: Vec<CurvePoint>,
-    /// Whether the preload is a displacement.
-    pub preload_is_displacement: bool,
-    /// What of the model may be meant otherwise, a sentence each.
-    pub doubts: Vec<String>,
 }
 
 /// Displacement, stiffness and life at one point of a curve; `None` where no equilibrium was found.
@@ -66,11 +77,11 @@ pub struct CurvePoint {
     pub displacement: Option<[f64; 5]>,
     /// Stiffness along x, y, z (N/m) and against tilt about x, y (N m/rad).
     pub stiffness: Option<[f64; 5]>,
-    /// Basic reference rating life, millions of revolutions; `None` also where it is not given.
+    /// Basic reference rating life of the bearing that fails first, millions of revolutions; `None` also where one has none.
     pub life: Option<f64>,
 }
 
-/// Finds where the shaft of a case rests in its bearing, at the highest speed of the case or at `rpm`.
+/// Finds where the shaft of a case rests in its bearings, at the highest speed of the case or at `rpm`.
 ///
 /// # Errors
 /// [`ComputeError`]: what is out of range; a load that the bearing cannot carry.
@@ -80,9 +91,9 @@ pub fn compute_bearing(
     holds_tilt: bool,
     watch: &impl Watch,
 ) -> Result<BearingResult, ComputeError> {
-    let (asked, _) = case.for_bearing()?;
     let scene = SpatialScene::build(case, rpm, holds_tilt)?;
-    if let (Some(Preload::Displacement(_)), true) = (scene.preload, scene.load.force[2].abs() > 0.0) {
+    let alone = scene.bearings.len() == 1;
+    if let (Some(Preload::Displacement(_)), true, true) = (scene.preload(), alone, scene.load.force[2].abs() > 0.0) {
         return Err(ComputeError::input(
             "bearing.preload.displacement: found beside a load along z, expected one of the two: the inner ring is held along z",
             "leave the load along z out, or give the preload as a force",
@@ -91,27 +102,20 @@ pub fn compute_bearing(
     watch.stage("equilibrium");
     let (shaft, load) = scene.shaft()?;
     let equilibria = shaft.find_all(&load).map_err(no_equilibrium)?;
-    let balls = equilibria.first().and_then(|taken| taken.bearings.first()).map_or(&[][..], |state| &state.balls);
-    let geometry = scene.bearing.geometry();
-    let contact_angle = mean_angle(balls);
-    let diameters = [2.0 * geometry.ball_radius(), 2.0 * geometry.pitch_radius()];
-    let row =
-        BallRow::new(geometry.balls(), diameters[0], diameters[1], contact_angle.abs()).map_err(no_equilibrium)?;
+    let Some(taken) = equilibria.first() else {
+        return Err(ComputeError::failed("no place was found where the shaft rests", REST_HELP));
+    };
+    let at_rest = scene.bearings.iter().zip(&taken.bearings).map(|(own, state)| at_rest(&scene, own, state));
     let mut result = BearingResult {
         speed_rpm: scene.speed * 60.0 / TAU,
         time_s: scene.time,
         load,
-        thrust: scene.bearing.thrust(),
-        play: geometry.radial_play(),
-        free_contact_angle: geometry.free_contact_angle(),
-        contact_angle,
-        orders: row.orders(),
-        life: equilibria.first().and_then(|taken| rating_life(&scene, taken).ok()),
+        bearings: at_rest.collect::<Result<_, BearingError>>().map_err(no_equilibrium)?,
         over_load: Vec::new(),
         over_speed: Vec::new(),
         over_preload: Vec::new(),
-        preload_is_displacement: matches!(scene.preload, Some(Preload::Displacement(_))),
-        doubts: doubts(case, asked, &scene, &equilibria),
+        preload_is_displacement: matches!(scene.preload(), Some(Preload::Displacement(_))),
+        doubts: doubts(case, &scene, &equilibria),
         equilibria,
     };
     watch.stage("curves");
@@ -130,20 +134,21 @@ pub fn compute_bearing(
     }
     watch.fraction(2.0 / 3.0);
     let size = scene.load.force.iter().fold(0.0_f64, |most, part| most.max(part.abs()));
-    let (middle, by): (f64, fn(f64) -> Preload) = match scene.preload {
+    let (middle, by): (f64, fn(f64) -> Preload) = match scene.preload() {
         Some(Preload::Displacement(displacement)) => (displacement, Preload::Displacement),
         Some(Preload::Force(force)) => (force, Preload::Force),
-        None => (size, Preload::Force),
+        None if alone => (size, Preload::Force),
+        None => (0.0, Preload::Force),
     };
     if middle > 0.0 {
         let preloads = geometric(PRELOADS.map(|share| share * middle));
         // the result itself has the middle, or no preload
-        let first = match scene.preload {
+        let first = match scene.preload() {
             Some(_) => preloads.partition_point(|preload| *preload < middle),
             None => 0,
         };
         result.over_preload = curve(&preloads, first, taken, |preload| {
-            let scene = SpatialScene { preload: Some(by(preload)), ..scene.clone() };
+            let scene = scene.preloaded(by(preload));
             let (_, load) = scene.shaft()?;
             Ok((scene, load))
         })?;
@@ -163,7 +168,28 @@ pub(crate) fn shown_degrees(angle: f64) -> f64 {
     if degrees.abs() < 1e-9 { 0.0 } else { degrees }
 }
 
+impl BearingAtRest {
+    /// "bearing A"; `None` for the only one.
+    pub(crate) fn named(&self) -> Option<String> {
+        (!self.label.is_empty()).then(|| format!("bearing {}", self.label))
+    }
+
+    /// A title that names it where there are several.
+    pub(super) fn titled(&self, title: &str) -> String {
+        self.named().map_or_else(|| title.to_owned(), |name| format!("{title}, {name}"))
+    }
+}
+
 impl BearingResult {
+    /// What is to be said of each bearing in one line, with its label where there are several.
+    pub(super) fn each(&self, words: impl Fn(&BearingAtRest) -> Option<String>) -> String {
+        let told = self.bearings.iter().filter_map(|own| {
+            let words = words(own)?;
+            Some(if own.label.is_empty() { words } else { format!("{} {words}", own.label) })
+        });
+        told.collect::<Vec<_>>().join(", ")
+    }
+
     /// The loads that hold prescribed displacements, what is nothing but round-off beside the load and the ball loads as zero.
     pub(crate) fn holding_load(&self, rest: &ShaftEquilibrium) -> [f64; 5] {
         let balls = rest.bearings.iter().flat_map(|state| &state.balls);
@@ -173,12 +199,12 @@ impl BearingResult {
     }
 }
 
+const REST_HELP: &str =
+    "check loads, `bearing.thrust` and play; --hold-tilt holds the shaft's tilt, which one bearing alone hardly does";
+
 /// A bearing that cannot be in balance: nothing is wrong with the numbers one by one.
 fn no_equilibrium(error: BearingError) -> ComputeError {
-    ComputeError::failed(
-        format!("the bearing at rest: {error}"),
-        "check loads, `bearing.thrust` and play; --hold-tilt holds the shaft's tilt, which one bearing alone hardly does",
-    )
+    ComputeError::failed(format!("the bearing at rest: {error}"), REST_HELP)
 }
 
 /// Even steps of the logarithm.
@@ -209,7 +235,10 @@ pub(super) fn curve(
             let ([x, y, z], [a, b]) = (near.translation, near.tilt);
             point.displacement = Some([x, y, z, a, b]);
             point.stiffness = Some(std::array::from_fn(|axis| found.stiffness[axis][axis]));
-            point.life = rating_life(&scene, &found).ok().and_then(|life| life.life_mrev);
+            let lives = scene.bearings.iter().zip(&found.bearings);
+            let lives: Option<Vec<f64>> =
+                lives.map(|(own, state)| rating_life(&scene, own, state).ok()?.life_mrev).collect();
+            point.life = lives.and_then(|lives| lives.into_iter().reduce(f64::min));
         }
         Ok(())
     };
@@ -218,16 +247,37 @@ pub(super) fn curve(
     Ok(points)
 }
 
-/// Load rating and rating life where the shaft rests.
-fn rating_life(scene: &SpatialScene, rest: &ShaftEquilibrium) -> Result<RatingLife, BearingError> {
-    let balls = rest.bearings.iter().flat_map(|state| &state.balls);
-    let loads: Vec<[f64; 2]> = balls.map(|ball| ball.load).collect();
-    scene.bearing.rating_life(&loads, largest_pressure(rest), scene.speed)
+/// A bearing in its state.
+fn at_rest(scene: &SpatialScene, own: &OwnBearing, state: &BearingState) -> Result<BearingAtRest, BearingError> {
+    let geometry = own.bearing.geometry();
+    let contact_angle = mean_angle(&state.balls);
+    let diameters = [2.0 * geometry.ball_radius(), 2.0 * geometry.pitch_radius()];
+    let row = BallRow::new(geometry.balls(), diameters[0], diameters[1], contact_angle.abs())?;
+    Ok(BearingAtRest {
+        label: own.label.clone(),
+        place: own.place,
+        thrust: own.bearing.thrust(),
+        play: geometry.radial_play(),
+        free_contact_angle: geometry.free_contact_angle(),
+        contact_angle,
+        orders: row.orders(),
+        life: rating_life(scene, own, state).ok(),
+    })
+}
+
+/// Load rating and rating life of a bearing.
+pub(super) fn rating_life(
+    scene: &SpatialScene,
+    own: &OwnBearing,
+    state: &BearingState,
+) -> Result<RatingLife, BearingError> {
+    let loads: Vec<[f64; 2]> = state.balls.iter().map(|ball| ball.load).collect();
+    own.bearing.rating_life(&loads, largest_pressure(state), scene.speed)
 }
 
 /// Largest contact pressure, Pa.
-fn largest_pressure(rest: &ShaftEquilibrium) -> f64 {
-    let patches = rest.bearings.iter().flat_map(|state| &state.balls).flat_map(|ball| &ball.patch);
+pub(super) fn largest_pressure(state: &BearingState) -> f64 {
+    let patches = state.balls.iter().flat_map(|ball| &ball.patch);
     patches.map(|patch| patch.peak_pressure).fold(0.0, f64::max)
 }
 
@@ -237,73 +287,4 @@ fn mean_angle(balls: &[BallState]) -> f64 {
     let (sum, weight) =
         loaded.fold((0.0, 0.0), |(sum, weight), (load, angle)| (sum + load * angle.abs(), weight + load));
     if weight > 0.0 { sum / weight } else { 0.0 }
-}
-
-/// What of the case does not count here, and what of the result is to be looked at.
-pub(super) fn doubts(
-    case: &Case,
-    asked: &crate::app::case::Bearing,
-    scene: &SpatialScene,
-    equilibria: &[ShaftEquilibrium],
-) -> Vec<String> {
-    let mut doubts = Vec::new();
-    let slips = asked.slip != crate::app::case::Slip::default();
-    for (key, given) in [
-        ("bearing.defects", !asked.defects.is_empty()),
-        ("bearing.waviness", !asked.waviness.is_empty()),
-        ("bearing.ball_radius_differences", !asked.ball_radius_differences.is_empty()),
-        ("bearing.slip", slips),
-        ("shaft.unbalance", case.shaft.as_ref().is_some_and(|shaft| shaft.unbalance > 0.0)),
-    ] {
-        if given {
-            doubts.push(format!(
-                "{key} does not count: the bearing at rest has sound races, equal balls and pure rolling"
-            ));
-        }
-    }
-    if case.housing.is_some() || case.ring.is_some() {
-        doubts.push("[housing] and [ring] do not count: both rings of the bearing are rigid here".to_owned());
-    }
-    let Some(taken) = equilibria.first() else { return doubts };
-    if taken.directions_loose > 0 {
-        doubts.push(format!(
-            "{} of the shaft's five directions are held by nothing: its place along them is where the search ended",
-            taken.directions_loose
-        ));
-    }
-    if !taken.is_stable() {
-        doubts.push("the equilibrium is a saddle: the shaft leaves it".to_owned());
-    }
-    let others = equilibria.iter().skip(1).filter(|rest| rest.is_stable()).count();
-    if others > 0 {
-        let others = if others == 1 { "another stable equilibrium" } else { "other stable equilibria" };
-        doubts.push(format!("the load has {others}: the table shows all that were found"));
-    }
-    match rating_life(scene, taken) {
-        Err(error) => doubts.push(format!("no rating life, ISO 281 does not hold: {error}")),
-        // ISO 281:2007, 5.3: the life of heavier loads is the maker's to tell
-        Ok(life) => doubts.extend(life.reference_load_n.filter(|load| *load > 0.5 * life.load_rating_n).map(|load| {
-            format!("the reference load of {load:.0} N is above half the load rating: ISO 281 leaves such a life to the maker")
-        })),
-    }
-    let pressure = largest_pressure(taken);
-    if pressure > STATIC_PRESSURE {
-        doubts.push(format!(
-            "the largest contact pressure is {:.0} MPa; above {:.0} MPa, the static limit of ISO 76, races are dented for good and no rating life is given: reduce the load",
-            1e-6 * pressure,
-            1e-6 * STATIC_PRESSURE
-        ));
-    }
-    let balls = taken.bearings.iter().flat_map(|state| &state.balls);
-    let wrong_side = balls.filter(|ball| {
-        let angle = ball.contact_angle[0].unwrap_or(0.0);
-        scene.bearing.thrust() != Thrust::Both && scene.bearing.thrust().sign() * angle < 0.0
-    });
-    let wrong_side = wrong_side.count();
-    if wrong_side > 0 {
-        doubts.push(format!(
-            "{wrong_side} balls touch the inner race on the side where an angular contact bearing has no shoulder: such a bearing may lose these contacts"
-        ));
-    }
-    doubts
 }

@@ -1,6 +1,6 @@
 //! The report of `plummer bearing`.
 
-use super::compute::{BearingResult, CurvePoint, shown_degrees, shown_displacement};
+use super::compute::{BearingAtRest, BearingResult, CurvePoint, shown_degrees, shown_displacement};
 use crate::app::case::{Case, Purpose};
 use crate::app::commands::parts::{self, signed_report};
 use crate::bearing::RatingLife;
@@ -15,18 +15,15 @@ const COORDINATES: [&str; 5] = ["x", "y", "z", "tilt about x", "tilt about y"];
 
 /// Composes the report; `command` is the line that made it.
 pub(crate) fn bearing_report(case: &Case, result: &BearingResult, command: &str) -> Report {
-    let mut report = signed_report(case, command, "Bearing at rest");
+    let mut report =
+        signed_report(case, command, if result.bearings.len() > 1 { "Bearings at rest" } else { "Bearing at rest" });
     let taken = result.equilibria.first();
-    let state = taken.and_then(|taken| taken.bearings.first());
-    let most = |of: fn(&BallState) -> f64| state.map_or(0.0, |state| state.balls.iter().map(of).fold(0.0, f64::max));
+    let balls = || taken.into_iter().flat_map(|taken| &taken.bearings).flat_map(|state| &state.balls);
+    let most = |of: fn(&BallState) -> f64| balls().map(of).fold(0.0, f64::max);
     let stable = taken.is_some_and(ShaftEquilibrium::is_stable);
     report = report
         .headline("Equilibrium", if stable { "stable" } else { "a saddle" }, Verdict::of(stable))
-        .headline(
-            "Mean contact angle",
-            format!("{}\u{b0}", significant(shown_degrees(result.contact_angle), 4)),
-            Verdict::None,
-        )
+        .headline("Mean contact angle", result.each(|own| Some(degrees(own.contact_angle, 4))), Verdict::None)
         .headline(
             "Largest ball load",
             format!("{} N", significant(most(|ball| ball.load[0].max(ball.load[1])), 4)),
@@ -40,20 +37,25 @@ pub(crate) fn bearing_report(case: &Case, result: &BearingResult, command: &str)
             ),
             Verdict::None,
         );
-    if let Some(hours) = result.life.and_then(|life| life.life_h) {
-        report = report.headline("Rating life L10r", format!("{} h", significant(hours, 3)), Verdict::None);
+    let hours = result.each(|own| own.life?.life_h.map(|hours| format!("{} h", significant(hours, 3))));
+    if !hours.is_empty() {
+        report = report.headline("Rating life L10r", hours, Verdict::None);
     }
     report = report.section(inputs(case, result));
-    if let (Some(taken), Some(state)) = (taken, state) {
+    if let Some(taken) = taken {
         let rest = Section::new("At rest")
             .table(displacement_table(result, taken))
             .table(stiffness_table(taken))
             .table(equilibria_table(&result.equilibria));
-        report = report.section(rest).section(balls_section(state));
-        if let Some(life) = &result.life {
-            report = report.section(Section::new("Rating life").table(life_table(life)));
+        report = report.section(rest);
+        for (own, state) in result.bearings.iter().zip(&taken.bearings) {
+            report = report.section(balls_section(&own.titled("Balls"), state));
         }
-        report = report.section(orders_section(result));
+        if result.bearings.iter().any(|own| own.life.is_some()) {
+            report = report.section(Section::new("Rating life").table(life_table(&result.bearings)));
+        }
+        let orders = result.bearings.iter().map(|own| orders_table(own, result.speed_rpm));
+        report = report.section(orders.fold(Section::new("Orders"), Section::table));
     }
     let curves = [
         ("Over the load", "Load over that of the case", "", &result.over_load),
@@ -76,16 +78,16 @@ pub(crate) fn bearing_report(case: &Case, result: &BearingResult, command: &str)
 fn inputs(case: &Case, result: &BearingResult) -> Section {
     let [x, y, z] = result.load.force.map(|part| significant(part, 5));
     let [a, b] = result.load.moment.map(|part| significant(part, 5));
-    let angle = result.free_contact_angle.map_or_else(
-        || "none: the bearing has no play".to_owned(),
-        |angle| format!("{}\u{b0}", significant(angle.to_degrees(), 5)),
-    );
+    let angle = result.each(|own| {
+        let free = own.free_contact_angle.map(|angle| degrees(angle, 5));
+        Some(free.unwrap_or_else(|| "none: the bearing has no play".to_owned()))
+    });
     Section::new("Inputs").facts(parts::inputs(case, Purpose::Bearing, None)).facts([
         Fact::new("Free contact angle", angle),
         Fact::new("Load on the shaft", format!("({x}, {y}, {z}) N, moment ({a}, {b}) N m"))
-            .note("weight and preload included; z is the bearing's axis"),
+            .note("weight included, and the preload of a bearing alone; z is the axis"),
         Fact::new("Speed", format!("{} rpm", significant(result.speed_rpm, 6))),
-        Fact::new("Rings", "rigid, the outer one fixed").note("the housing's flexibility does not count"),
+        Fact::new("Rings", "rigid, the outer ones fixed").note("the housing's flexibility does not count"),
     ])
 }
 
@@ -155,7 +157,7 @@ fn equilibria_table(equilibria: &[ShaftEquilibrium]) -> Table {
     Table::new("Equilibria that were found", columns).rows(rows)
 }
 
-fn balls_section(state: &BearingState) -> Section {
+fn balls_section(title: &str, state: &BearingState) -> Section {
     let columns = [
         Column::number("Azimuth", "deg"),
         Column::number("Inner load", "N"),
@@ -205,30 +207,37 @@ fn balls_section(state: &BearingState) -> Section {
         .curve(over("inner race", &angle(0)))
         .curve(over("outer race", &angle(1)).style(CurveStyle::Dashed))
         .caption("Contact angle of every ball that touches, at both races. With speed the two part: the outer angle falls, the inner one grows.");
-    let section = Section::new("Balls").plot(loads);
+    let section = Section::new(title).plot(loads);
     // no ball touches a bearing without load
     let section = if angles.has_points() { section.plot(angles) } else { section };
-    section.table(Table::new("Balls", columns).rows(rows))
+    section.table(Table::new(title, columns).rows(rows))
 }
 
-fn life_table(life: &RatingLife) -> Table {
-    let columns = [Column::text("Quantity"), Column::number("Value", ""), Column::text("Unit")];
-    let rows = [
-        ("Basic dynamic load rating C", Some(life.load_rating_n), "N"),
-        ("Dynamic equivalent reference load", life.reference_load_n, "N"),
-        ("Basic reference rating life L10r", life.life_mrev, "million revolutions"),
-        ("The same at this speed", life.life_h, "h"),
+/// What a bearing's life is made of.
+type LifeRow = (&'static str, fn(&RatingLife) -> Option<f64>, &'static str);
+
+fn life_table(bearings: &[BearingAtRest]) -> Table {
+    let rows: [LifeRow; 4] = [
+        ("Basic dynamic load rating C", |life| Some(life.load_rating_n), "N"),
+        ("Dynamic equivalent reference load", |life| life.reference_load_n, "N"),
+        ("Basic reference rating life L10r", |life| life.life_mrev, "million revolutions"),
+        ("The same at this speed", |life| life.life_h, "h"),
     ];
-    let rows = rows
-        .into_iter()
-        .filter_map(|(name, value, unit)| Some([Cell::text(name), Cell::number(value?, 4), Cell::text(unit)]));
+    let values = bearings.iter().map(|own| Column::number(own.named().unwrap_or_else(|| "Value".to_owned()), ""));
+    let columns = [Column::text("Quantity")].into_iter().chain(values).chain([Column::text("Unit")]);
+    let rows = rows.into_iter().filter_map(|(name, of, unit)| {
+        let values: Vec<Option<f64>> = bearings.iter().map(|own| of(own.life.as_ref()?)).collect();
+        let cells = values.iter().map(|value| Cell::number_or(*value, 4, "not given"));
+        let row = [Cell::text(name)].into_iter().chain(cells).chain([Cell::text(unit)]);
+        values.iter().any(Option::is_some).then(|| row.collect::<Vec<_>>())
+    });
     Table::new("Rating life", columns).rows(rows).footnote(parts::LIFE_NOTE)
 }
 
-fn orders_section(result: &BearingResult) -> Section {
-    let orders = result.orders;
+fn orders_table(own: &BearingAtRest, speed_rpm: f64) -> Table {
+    let orders = own.orders;
     let columns = [Column::text("Part"), Column::number("Order", "1/turn"), Column::number("Frequency", "Hz")];
-    let hz = result.speed_rpm.abs() / 60.0;
+    let hz = speed_rpm.abs() / 60.0;
     let rows = [
         ("Outer race (BPFO)", orders.outer),
         ("Inner race (BPFI)", orders.inner),
@@ -236,9 +245,13 @@ fn orders_section(result: &BearingResult) -> Section {
         ("Cage (FTF)", orders.cage),
     ]
     .map(|(part, order)| [Cell::text(part), Cell::number(order, 6), Cell::number(order * hz, 6)]);
-    let caption =
-        format!("Orders at the mean contact angle of {}\u{b0}", significant(shown_degrees(result.contact_angle), 4));
-    Section::new("Orders").table(Table::new(caption, columns).rows(rows))
+    let caption = own.titled(&format!("Orders at the mean contact angle of {}", degrees(own.contact_angle, 4)));
+    Table::new(caption, columns).rows(rows)
+}
+
+/// An angle (rad) in degrees.
+fn degrees(angle: f64, digits: usize) -> String {
+    format!("{}\u{b0}", significant(shown_degrees(angle), digits))
 }
 
 fn curve_section(title: &str, axis: &str, unit: &str, points: &[CurvePoint]) -> Section {

@@ -1,6 +1,6 @@
 //! What `bearing.json` says.
 
-use super::compute::{BearingResult, CurvePoint};
+use super::compute::{BearingAtRest, BearingResult, CurvePoint};
 use crate::bearing::RatingLife;
 use crate::bearing::kinematics::DefectOrders;
 use crate::bearing::spatial::{BallState, ShaftEquilibrium, Thrust};
@@ -8,7 +8,7 @@ use schemars::JsonSchema;
 use serde::Serialize;
 use std::f64::consts::TAU;
 
-/// The bearing at rest, rings rigid.
+/// The shaft at rest in its bearings, rings rigid.
 #[derive(Debug, Clone, Serialize, JsonSchema)]
 pub struct BearingSummary<'a> {
     /// Speed of the shaft, rpm.
@@ -17,27 +17,17 @@ pub struct BearingSummary<'a> {
     pub time_s: f64,
     /// Force on the shaft along x, y, z, weight and preload included, N.
     pub force_n: [f64; 3],
-    /// Moment about x and y through the bearing's centre, N m.
+    /// Moment about x and y through the first bearing's centre, N m.
     pub moment_nm: [f64; 2],
-    /// Which way the bearing holds thrust.
-    pub thrust: Thrust,
-    /// Radial play, m.
-    pub radial_play_m: f64,
-    /// Free contact angle, degrees; null without play.
-    pub free_contact_angle_deg: Option<f64>,
+    /// Every bearing, in the order of the case.
+    pub bearings: Vec<BearingAtRestSummary<'a>>,
     /// The equilibrium to which the load leads, then the others that were found.
-    pub equilibria: Vec<EquilibriumSummary>,
-    /// Mean contact angle at the inner race, weighted by the loads, degrees.
-    pub mean_contact_angle_deg: f64,
-    /// Orders at that angle, per turn of the shaft.
-    pub orders: DefectOrders,
-    /// Load rating and rating life; null where the standard does not hold, with a warning.
-    pub rating: Option<RatingLife>,
+    pub equilibria: Vec<EquilibriumSummary<'a>>,
     /// Over the factor of the load.
     pub over_load: &'a [CurvePoint],
     /// Over the speed in rpm; empty without speed.
     pub over_speed: &'a [CurvePoint],
-    /// Over the preload: a force in N, or a displacement in m.
+    /// Over the preload of the first bearing, the others' in proportion: a force in N, or a displacement in m.
     pub over_preload: &'a [CurvePoint],
     /// Whether the preload is a displacement.
     pub preload_is_displacement: bool,
@@ -45,9 +35,30 @@ pub struct BearingSummary<'a> {
     pub warnings: &'a [String],
 }
 
+/// A bearing where the shaft rests.
+#[derive(Debug, Clone, Serialize, JsonSchema)]
+pub struct BearingAtRestSummary<'a> {
+    /// What results call it; empty for the only one.
+    pub label: &'a str,
+    /// Along the axis from the first one's centre, m.
+    pub place_m: f64,
+    /// Which way it holds thrust.
+    pub thrust: Thrust,
+    /// Radial play, m.
+    pub radial_play_m: f64,
+    /// Free contact angle, degrees; null without play.
+    pub free_contact_angle_deg: Option<f64>,
+    /// Mean contact angle at the inner race, weighted by the loads, degrees.
+    pub mean_contact_angle_deg: f64,
+    /// Orders at that angle, per turn of the shaft.
+    pub orders: DefectOrders,
+    /// Load rating and rating life; null where the standard does not hold, with a warning.
+    pub rating: Option<RatingLife>,
+}
+
 /// Where the shaft rests.
 #[derive(Debug, Clone, Serialize, JsonSchema)]
-pub struct EquilibriumSummary {
+pub struct EquilibriumSummary<'a> {
     /// Displacement along x, y, z, m.
     pub displacement_m: [f64; 3],
     /// Tilt about x and y, rad.
@@ -62,13 +73,15 @@ pub struct EquilibriumSummary {
     pub directions_loose: usize,
     /// Largest force out of balance, N.
     pub residual_n: f64,
-    /// The balls, in order.
-    pub balls: Vec<BallSummary>,
+    /// The balls, bearing by bearing, in order.
+    pub balls: Vec<BallSummary<'a>>,
 }
 
 /// A ball in equilibrium. Pairs are of the inner and the outer race.
 #[derive(Debug, Clone, Serialize, JsonSchema)]
-pub struct BallSummary {
+pub struct BallSummary<'a> {
+    /// Label of its bearing; empty for the only one.
+    pub bearing: &'a str,
     /// Azimuth, degrees.
     pub azimuth_deg: f64,
     /// Contact force, N.
@@ -95,10 +108,11 @@ pub struct BallSummary {
     pub gyroscopic_moment_nm: f64,
 }
 
-impl From<&BallState> for BallSummary {
-    fn from(ball: &BallState) -> Self {
+impl<'a> BallSummary<'a> {
+    fn of(bearing: &'a str, ball: &BallState) -> Self {
         let rpm = |speed: f64| speed * 60.0 / TAU;
         Self {
+            bearing,
             azimuth_deg: ball.azimuth.to_degrees().rem_euclid(360.0),
             load_n: ball.load,
             contact_angle_deg: ball.contact_angle.map(|angle| angle.map(f64::to_degrees)),
@@ -115,9 +129,10 @@ impl From<&BallState> for BallSummary {
     }
 }
 
-impl From<&ShaftEquilibrium> for EquilibriumSummary {
-    fn from(rest: &ShaftEquilibrium) -> Self {
-        let balls = rest.bearings.iter().flat_map(|state| &state.balls);
+impl<'a> EquilibriumSummary<'a> {
+    fn of(bearings: &'a [BearingAtRest], rest: &ShaftEquilibrium) -> Self {
+        let balls = bearings.iter().zip(&rest.bearings);
+        let balls = balls.flat_map(|(own, state)| state.balls.iter().map(|ball| BallSummary::of(&own.label, ball)));
         Self {
             displacement_m: rest.displacement.translation,
             tilt_rad: rest.displacement.tilt,
@@ -126,7 +141,22 @@ impl From<&ShaftEquilibrium> for EquilibriumSummary {
             directions_down: rest.directions_down,
             directions_loose: rest.directions_loose,
             residual_n: rest.residual_n,
-            balls: balls.map(BallSummary::from).collect(),
+            balls: balls.collect(),
+        }
+    }
+}
+
+impl BearingAtRest {
+    fn summary(&self) -> BearingAtRestSummary<'_> {
+        BearingAtRestSummary {
+            label: &self.label,
+            place_m: self.place,
+            thrust: self.thrust,
+            radial_play_m: self.play,
+            free_contact_angle_deg: self.free_contact_angle.map(f64::to_degrees),
+            mean_contact_angle_deg: self.contact_angle.to_degrees(),
+            orders: self.orders,
+            rating: self.life,
         }
     }
 }
@@ -139,13 +169,8 @@ impl BearingResult {
             time_s: self.time_s,
             force_n: self.load.force,
             moment_nm: self.load.moment,
-            thrust: self.thrust,
-            radial_play_m: self.play,
-            free_contact_angle_deg: self.free_contact_angle.map(f64::to_degrees),
-            equilibria: self.equilibria.iter().map(EquilibriumSummary::from).collect(),
-            mean_contact_angle_deg: self.contact_angle.to_degrees(),
-            orders: self.orders,
-            rating: self.life,
+            bearings: self.bearings.iter().map(BearingAtRest::summary).collect(),
+            equilibria: self.equilibria.iter().map(|rest| EquilibriumSummary::of(&self.bearings, rest)).collect(),
             over_load: &self.over_load,
             over_speed: &self.over_speed,
             over_preload: &self.over_preload,

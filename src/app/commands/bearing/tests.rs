@@ -1,6 +1,7 @@
 //! The command from a case to its result and page.
 
-use super::compute::{BearingResult, FACTORS, POINTS, compute_bearing, curve, doubts, geometric};
+use super::compute::{BearingResult, FACTORS, POINTS, compute_bearing, curve, geometric};
+use super::doubts::doubts;
 use super::report::bearing_report;
 use crate::app::case::{Case, Source};
 use crate::app::error::ComputeError;
@@ -27,15 +28,15 @@ fn a_case_gives_the_published_angle_and_load() {
     let result = compute_bearing(&case, None, false, &Unwatched).unwrap();
     let balls = &result.equilibria[0].bearings[0].balls;
     // 41.5 degrees and 1679 N; the pitch diameter is the printed one within 5 um
-    assert_relative_eq!(result.contact_angle.to_degrees(), 41.5, epsilon = 0.05);
+    assert_relative_eq!(result.bearings[0].contact_angle.to_degrees(), 41.5, epsilon = 0.05);
     assert_relative_eq!(balls[0].load[0], 1679.0, epsilon = 0.5);
-    assert_relative_eq!(result.free_contact_angle.unwrap().to_degrees(), 40.0, epsilon = 1e-9);
+    assert_relative_eq!(result.bearings[0].free_contact_angle.unwrap().to_degrees(), 40.0, epsilon = 1e-9);
     // orders at the angle in force, not at none
-    let ratio = 22.23 / 125.26 * result.contact_angle.cos();
-    assert_relative_eq!(result.orders.cage, 0.5 * (1.0 - ratio), max_relative = 1e-6);
+    let ratio = 22.23 / 125.26 * result.bearings[0].contact_angle.cos();
+    assert_relative_eq!(result.bearings[0].orders.cage, 0.5 * (1.0 - ratio), max_relative = 1e-6);
     assert!(result.over_speed.is_empty());
     let json = serde_json::to_value(result.summary()).unwrap();
-    assert_eq!(json["thrust"], "positive");
+    assert_eq!(json["bearings"][0]["thrust"], "positive");
     assert_eq!(json["equilibria"][0]["balls"].as_array().unwrap().len(), 16);
     // the curves pass through the result: factor 1 is their middle
     let middle = &result.over_load[12];
@@ -84,14 +85,15 @@ fn preload_speed_and_what_does_not_count() {
 #[test]
 fn the_life_is_that_of_the_ball_loads() {
     let result = compute_bearing(&case(&[]), Some(1000.0), true, &Unwatched);
-    let life = compute_bearing(&case(&[]), None, false, &Unwatched).unwrap().life.unwrap();
+    let life = compute_bearing(&case(&[]), None, false, &Unwatched).unwrap().bearings[0].life.unwrap();
     assert_relative_eq!(life.load_rating_n, 101_643.0, max_relative = 1e-4);
     // the load of a ball is 1679 N within 0.5 N
     assert_relative_eq!(life.life_mrev.unwrap(), 1441.3, max_relative = 1e-3);
     assert!(life.life_h.is_none());
     // with speed hours, and at the curve's middle the same life
     let result = result.unwrap();
-    let [mrev, hours] = [result.life.unwrap().life_mrev.unwrap(), result.life.unwrap().life_h.unwrap()];
+    let [mrev, hours] =
+        [result.bearings[0].life.unwrap().life_mrev.unwrap(), result.bearings[0].life.unwrap().life_h.unwrap()];
     assert_relative_eq!(hours, 1e6 * mrev / 60_000.0, max_relative = 1e-12);
     assert_relative_eq!(result.over_load[12].life.unwrap(), mrev, max_relative = 1e-6);
     assert!(result.over_load[24].life.unwrap() < 2e-3 * mrev);
@@ -99,13 +101,13 @@ fn the_life_is_that_of_the_ball_loads() {
     for (thrust, told) in [("90e3", false), ("130e3", true)] {
         let set = format!("shaft.loads=[{{force=[0,0,{thrust}]}}]");
         let result = compute_bearing(&case(&[&set]), None, true, &Unwatched).unwrap();
-        assert_eq!(result.life.unwrap().life_mrev.unwrap() < 8.0, told);
+        assert_eq!(result.bearings[0].life.unwrap().life_mrev.unwrap() < 8.0, told);
         assert_eq!(result.doubts.iter().any(|doubt| doubt.contains("above half the load rating")), told);
     }
     // no steel, no life
     let hybrid =
         compute_bearing(&case(&["bearing.ball_material=\"silicon nitride\""]), None, true, &Unwatched).unwrap();
-    assert!(hybrid.life.is_none() && hybrid.over_load.iter().all(|point| point.life.is_none()));
+    assert!(hybrid.bearings[0].life.is_none() && hybrid.over_load.iter().all(|point| point.life.is_none()));
     let said = hybrid.doubts.join("\n");
     assert!(said.contains("no rating life, ISO 281 does not hold: effective modulus of the inner contact"), "{said}");
     let page = bearing_report(&case(&[]), &hybrid, "plummer bearing case.toml").to_html().unwrap();
@@ -206,8 +208,7 @@ fn pressures_above_the_static_limit_are_told() {
         let found = shaft.equilibrium(&load).unwrap();
         let balls = &found.bearings[0].balls;
         let most = balls.iter().flat_map(|ball| ball.patch).map(|patch| patch.peak_pressure).fold(0.0, f64::max);
-        let (asked, _) = case.for_bearing().unwrap();
-        let doubts = doubts(&case, asked, &scene, &[found]);
+        let doubts = doubts(&case, &scene, &[found]);
         (most, doubts.iter().any(|doubt| doubt.contains("above 4200 MPa, the static limit of ISO 76")))
     };
     let [(low, quiet), (high, warned)] = [told("1e3"), told("1e5")];
@@ -225,4 +226,38 @@ fn a_ball_without_a_place_is_named() {
     let (shaft, load) = SpatialScene::build(&case, Some(1e5), true).unwrap().shaft().unwrap();
     let said = shaft.equilibrium(&load).unwrap_err().to_string();
     assert!(said.contains("at 100000 rpm the ball at ") && said.contains("lower the speed"), "{said}");
+}
+
+/// Without load each bearing of a pair carries its preload; a load shifts between them, and an O arrangement holds the tilt.
+#[test]
+fn a_preloaded_pair_rests_in_its_preload() {
+    let of = |set: &[&str]| {
+        let case = Case::example("machines/spindle", &[&["shaft.gravity=[0,0]"], set].concat());
+        let result = compute_bearing(&case, Some(0.0), false, &Unwatched).unwrap();
+        let axial = result.equilibria[0].bearings.iter().map(|state| {
+            state.balls.iter().map(|ball| ball.load[0] * ball.contact_angle[0].unwrap_or(0.0).sin()).sum::<f64>()
+        });
+        let axial: Vec<f64> = axial.collect();
+        (case, result, axial)
+    };
+    let (case, result, axial) = of(&["shaft.loads=[]"]);
+    // the preload is 20 N: the search ends within 1e-9 of the load
+    assert_relative_eq!(axial[0], 20.0, max_relative = 1e-7);
+    assert_relative_eq!(axial[1], -20.0, max_relative = 1e-7);
+    let rest = &result.equilibria[0];
+    assert!(rest.is_stable() && rest.directions_loose == 0);
+    assert!(rest.displacement.translation.iter().all(|part| part.abs() < 1e-14), "{:?}", rest.displacement);
+    assert_relative_eq!(result.bearings[1].place, 25e-3, max_relative = 1e-12);
+    assert_eq!(result.bearings[0].orders, result.bearings[1].orders);
+    // thrust on the shaft goes to the bearing that holds it
+    let (_, _, loaded) = of(&["shaft.loads=[{force=[0,0,15]}]"]);
+    assert_relative_eq!(loaded[0] + loaded[1], 15.0, max_relative = 1e-7);
+    assert!(loaded[0] > 20.0 && loaded[1] > -20.0, "{loaded:?}");
+    // the curve over the preload passes through the case's, and the others' preload follows the first
+    let middle = &result.over_preload[result.over_preload.partition_point(|point| point.at < 20.0)];
+    assert!(middle.displacement.unwrap().iter().all(|part| part.abs() < 1e-12) && !result.preload_is_displacement);
+    let page = bearing_report(&case, &result, "plummer bearing spindle.toml").to_html().unwrap();
+    assert!(page.contains("Balls, bearing A") && page.contains("Balls, bearing B"));
+    let json = serde_json::to_value(result.summary()).unwrap();
+    assert_eq!(json["equilibria"][0]["balls"][7]["bearing"], "B");
 }
