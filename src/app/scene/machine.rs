@@ -20,7 +20,8 @@ use crate::numerics::Watch;
 use crate::numerics::ode::State;
 use crate::system::{
     BearingInPlace, LoadProfile, LoadedModes, ModeSelection, SpatialBallLoad, SpatialCondition, SpatialEquilibrium,
-    SpatialLoad, SpatialSetup, SpatialShaft, SpatialSystem, StructureModes, Unbalance, with_static_vectors,
+    SpatialLoad, SpatialSetup, SpatialShaft, SpatialSystem, StructureModes, SystemError, Unbalance,
+    with_static_vectors,
 };
 use nalgebra::Vector2;
 
@@ -108,9 +109,10 @@ impl MachineScene {
         );
         let mut scene = Self { stage, setup, orders, damping: damping(case)?, start, equilibrium, doubts };
         for (own, balls) in scene.setup.bearings.iter().zip(&scene.equilibrium.bearings) {
-            if let Err(error) = scene.rating_life(own, balls) {
-                let name = if own.label.is_empty() { String::new() } else { format!("bearing {}: ", own.label) };
-                scene.doubts.push(format!("{name}no rating life, ISO 281 does not hold: {error}"));
+            let name = if own.label.is_empty() { String::new() } else { format!("bearing {}: ", own.label) };
+            match scene.rating_life(own, balls) {
+                Err(error) => scene.doubts.push(format!("{name}no rating life, ISO 281 does not hold: {error}")),
+                Ok(life) => scene.doubts.extend(life.doubt().map(|doubt| name + &doubt)),
             }
         }
         Ok(scene)
@@ -176,6 +178,9 @@ impl MachineScene {
     pub(crate) fn basis(&self, model: &RunModel) -> Result<StructureModes, ComputeError> {
         let (structure, modes) = (&self.stage.structure, &self.stage.modes);
         let kept = model.modes.count(modes);
+        if kept == 0 && modes.count() > 0 {
+            return Err(SystemError::NoModesKept { lowest_hz: modes.frequency_hz(0) }.into());
+        }
         let residual = model.residual && kept < structure.dof();
         let kept = if residual { kept } else { return Ok(modes.lowest(kept)) };
         Ok(with_static_vectors(structure, modes, kept, &self.setup)?.0)

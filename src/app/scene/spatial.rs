@@ -4,7 +4,7 @@ use super::bearing::{contacts_of, geometry};
 use super::housing::frame;
 use crate::app::case::{self, Case, ContactStiffness, Preload, Rule, Seat};
 use crate::app::error::ComputeError;
-use crate::bearing::spatial::{MountedBearing, RigidShaft, ShaftLoad, SpatialBearing};
+use crate::bearing::spatial::{MountedBearing, RigidShaft, ShaftLoad, SpatialBearing, Thrust};
 use crate::bearing::{BearingError, ContactStiffness as Stiffness};
 use crate::fe::model::RingFrame;
 use crate::system::LoadProfile;
@@ -156,9 +156,28 @@ pub(super) fn offset(bearing: &SpatialBearing, preload: Option<Preload>) -> Resu
     }
 }
 
+/// Refuses preload between bearings that all hold thrust the same way: nothing holds it, and it would vanish.
+fn refuse_one_way_preload(case: &Case, seats: &[Seat<'_>]) -> Result<(), ComputeError> {
+    let thrusts: Vec<Thrust> =
+        seats.iter().filter_map(|seat| seat.bearing).map(case::Bearing::thrust_or_default).collect();
+    for seat in seats {
+        let Some(own) = seat.bearing.filter(|own| own.preload.is_some()) else { continue };
+        let thrust = own.thrust_or_default();
+        if seats.len() > 1 && thrust != Thrust::Both && thrusts.iter().all(|other| *other == thrust) {
+            let rule = Rule::found(
+                "a preload between bearings that all hold thrust the same way",
+                "one that holds it the other way, or no preload",
+            );
+            return Err(case.broken(&rule.at(seat.key("bearing.preload"))).into());
+        }
+    }
+    Ok(())
+}
+
 /// Places of the bearings along the first one's axis from its centre, m: they have to be on one line, their angles counted alike.
 pub(super) fn places(case: &Case, frames: &[RingFrame], seats: &[Seat<'_>]) -> Result<Vec<f64>, ComputeError> {
     let Some(first) = frames.first() else { return Ok(Vec::new()) };
+    refuse_one_way_preload(case, seats)?;
     let mut places = Vec::with_capacity(frames.len());
     for (frame, seat) in frames.iter().zip(seats) {
         let [x, y, z] = first.point(frame.centre());
@@ -194,7 +213,8 @@ pub(super) fn spatial_bearing(case: &Case, asked: &case::Bearing) -> Result<Spat
     let moduli = [contacts.inner.effective_modulus, contacts.outer.effective_modulus];
     let control = asked.race_control.unwrap_or_default();
     let bearing = SpatialBearing::new(geometry, moduli, asked.thrust_or_default(), control)
-        .map_err(ComputeError::bearing("bearing: "))?;
+        .map_err(ComputeError::bearing("bearing: "))?
+        .with_nominal_angle(asked.contact_angle_deg.unwrap_or(0.0).to_radians());
     Ok(match asked.stiffness {
         ContactStiffness::Hertz => bearing,
         ContactStiffness::Given { inner, outer } => {

@@ -37,7 +37,7 @@ const LEFT_OUT: f64 = 3.2;
 
 /// Part of the target that this may be in a run whose vectors are chosen, and the most numbers that they have, ten seconds' work: 300
 /// vectors of 13 000 degrees of freedom.
-const LEFT_OUT_SHARE: f64 = 0.5;
+pub(crate) const LEFT_OUT_SHARE: f64 = 0.5;
 pub(crate) const MOST_NUMBERS: usize = 4_000_000;
 
 /// The relative error of a run in the band up to `band_hz` by the vectors of its housing that were left out, all above `complete_hz`.

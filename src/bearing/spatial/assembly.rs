@@ -29,6 +29,8 @@ pub struct SpatialBearing {
     moduli: [f64; 2],
     pub(super) law: BallLaw,
     thrust: Thrust,
+    /// Nominal contact angle of the load rating, rad.
+    nominal_angle: f64,
     defects: Vec<DamagedGroove>,
 }
 
@@ -113,7 +115,7 @@ impl SpatialBearing {
             pitch_diameter: 2.0 * geometry.pitch_radius(),
             race_control,
         };
-        Ok(Self { geometry, moduli, law, thrust, defects: Vec::new() })
+        Ok(Self { geometry, moduli, law, thrust, nominal_angle: 0.0, defects: Vec::new() })
     }
 
     /// The same bearing with Hertz constants that are given, the same at every angle. Patches stay those of the moduli.
@@ -180,8 +182,14 @@ impl SpatialBearing {
         hertz_at(&self.geometry, race, angle.cos().max(0.0), modulus).ok()
     }
 
+    /// The same with a nominal contact angle (rad), which the load rating takes; 0 without: play alone makes no angular contact bearing.
+    #[must_use]
+    pub(crate) fn with_nominal_angle(self, nominal_angle: f64) -> Self {
+        Self { nominal_angle, ..self }
+    }
+
     /// Load rating, and life under the loads of all balls at both races (N), with the largest contact pressure (Pa), at a speed of the
-    /// shaft (rad/s). The nominal contact angle is the free one, or 0 for thrust both ways.
+    /// shaft (rad/s).
     ///
     /// # Errors
     /// [`BearingError`]: what the standard does not hold for.
@@ -191,8 +199,7 @@ impl SpatialBearing {
         peak_pressure: f64,
         speed: f64,
     ) -> Result<RatingLife, BearingError> {
-        let free = self.geometry.free_contact_angle().filter(|_| self.thrust != Thrust::Both);
-        let rating = LoadRating::new(&self.geometry, free.unwrap_or(0.0), self.moduli)?;
+        let rating = LoadRating::new(&self.geometry, self.nominal_angle, self.moduli)?;
         Ok(rating.life(loads, peak_pressure, speed))
     }
 

@@ -70,7 +70,8 @@ impl SpatialSystem {
         }
         let count = selection.count(modes);
         if count == 0 {
-            return Err(SystemError::NoModesKept { lowest_hz: modes.frequency_hz(0) });
+            let lowest_hz = modes.squared_frequencies.first().map_or(f64::NAN, |_| modes.frequency_hz(0));
+            return Err(SystemError::NoModesKept { lowest_hz });
         }
         let rates = damping.rates(&modes.squared_frequencies)?;
         let structural = modes.squared_frequencies[..count].iter().zip(rates);

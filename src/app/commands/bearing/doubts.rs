@@ -68,10 +68,7 @@ fn doubts_of(scene: &SpatialScene, own: &OwnBearing, state: &BearingState) -> Ve
     let mut doubts = Vec::new();
     match rating_life(scene, own, state) {
         Err(error) => doubts.push(format!("no rating life, ISO 281 does not hold: {error}")),
-        // ISO 281:2007, 5.3: the life of heavier loads is the maker's to tell
-        Ok(life) => doubts.extend(life.reference_load_n.filter(|load| *load > 0.5 * life.load_rating_n).map(|load| {
-            format!("the reference load of {load:.0} N is above half the load rating: ISO 281 leaves such a life to the maker")
-        })),
+        Ok(life) => doubts.extend(life.doubt()),
     }
     let pressure = largest_pressure(state);
     if pressure > STATIC_PRESSURE {

@@ -9,7 +9,7 @@ use crate::report::{Abscissa, Axis, Cell, Column, Curve, CurveStyle, Plot, Secti
 use crate::system::{BearingInPlace, SpatialBallLoad, SpatialEquilibrium, SpatialSetup};
 
 /// What a reader must know of a rating life.
-pub(crate) const LIFE_NOTE: &str = "C by ISO 281 for bearing steel; grooves wider than 0.52 (outer 0.53) of the ball lower it. A maker's own C changes the life by the cube of the ratio. L10r by ISO/TS 16281 from these ball loads, for a load at rest against the outer ring: no unbalance, shoulders, lubricant or contamination.";
+pub(crate) const LIFE_NOTE: &str = "C by ISO 281 for bearing steel; grooves wider than 0.52 (outer 0.53) of the ball lower it. A maker's own C changes the life by the cube of the ratio. L10r by ISO/TS 16281 from these ball loads, for a load at rest against the outer ring: no unbalance, shoulders, lubricant or contamination. With few balls it hangs on where they stand (first_ball_deg).";
 
 /// Every bearing in a column: geometry, contact angle, loads, life and orders.
 pub(crate) fn bearings_table(scene: &MachineScene) -> Table {

@@ -197,6 +197,12 @@ fn a_shaft_in_space_is_charted_as_a_bearing_in_its_plane() {
     // what is wanted of a reference
     assert!(reference.disagreement < 0.01 * settings.target, "{}", reference.disagreement);
     assert!(!scene.is_damaged() && scene.next_strike(0.0).is_none());
+    // no mode lies in the band: refused, by name
+    for residual in [false, true] {
+        let none = RunModel { modes: ModeSelection::UpTo(1.0), residual, ..all_modes(Method::Exponential, &[4e-7])[0] };
+        let said = scene.ready(&none).err().unwrap().to_string();
+        assert!(said.contains("modes"), "{said}");
+    }
     let families = [all_modes(Method::Exponential, &[4e-7])];
     let systems = Systems::of_all(&scene, families.iter().flatten());
     let on = Comparison { systems: &systems, reference: &reference, settings: &settings, until: Deadline::NEVER };

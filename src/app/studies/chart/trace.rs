@@ -222,8 +222,9 @@ impl Settings {
         let output_hz = SAMPLES_A_PERIOD * band_hz;
         let edge_s = band_limit_edge_s(1.0 / output_hz, band_hz)?;
         let length = asked.end - asked.start;
-        let span_s = length.min(effort.pick(SPAN));
         let window_s = WINDOW_PERIODS / band_hz;
+        // low bands have long windows
+        let span_s = length.min(effort.pick(SPAN).max(4.0 * window_s));
         // two windows tell a growth
         if span_s < 2.0 * window_s {
             return Err(too_short(length, band_hz, 2.0 * window_s));

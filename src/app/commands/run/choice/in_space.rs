@@ -11,7 +11,7 @@ use super::stepping::{self, step_or};
 use crate::app::case::{self, Case, ModesKept, StepLength};
 use crate::app::commands::run::{InMemory, Simulation, Span};
 use crate::app::error::ComputeError;
-use crate::app::scene::structure::complete_for;
+use crate::app::scene::structure::{LEFT_OUT_SHARE, complete_for};
 use crate::app::scene::{MachineScene, RunModel};
 use crate::bearing::Race;
 use crate::bearing::kinematics::DefectOrders;
@@ -164,7 +164,7 @@ impl ModelChoice {
         Ok(Self {
             model,
             estimated_error,
-            complete_for_hz: complete_for(band_hz, target / growth),
+            complete_for_hz: complete_for(band_hz, LEFT_OUT_SHARE * target / growth),
             growth,
             measured: found.ok(),
             stable_s,

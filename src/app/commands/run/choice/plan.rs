@@ -10,7 +10,7 @@ use super::{loaded_errors, pilot, stepping};
 use crate::app::case;
 use crate::app::case::RunCase;
 use crate::app::error::ComputeError;
-use crate::app::scene::structure::{MOST_NUMBERS, complete_for, left_out, wanted_hz};
+use crate::app::scene::structure::{LEFT_OUT_SHARE, MOST_NUMBERS, complete_for, left_out, wanted_hz};
 use crate::app::scene::{CoupledStructure, RunModel, Scene};
 use crate::numerics::ode::Method;
 use crate::report::significant;
@@ -113,7 +113,7 @@ impl ModelChoice {
         Ok(Self {
             model,
             estimated_error,
-            complete_for_hz: complete_for(band_hz, target / growth),
+            complete_for_hz: complete_for(band_hz, LEFT_OUT_SHARE * target / growth),
             growth,
             measured: measured.ok().flatten(),
             stable_s: stepping::stable_below(task, &model)?,
