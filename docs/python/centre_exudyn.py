@@ -5,7 +5,8 @@
     feet="group = 'feet', point = [2.1431528471191147e-7, -0.013, 0.0001336425771000694]"
     plummer export $case --to mtx --out out/matrices
     for tie in rigid mean; do
-        plummer condense $case --out out/$tie --set accuracy.target=0.1 --set "condense = { fixed_interface_modes = 12, enhanced = false,
+        plummer condense $case --out out/$tie --set "accuracy = { band_hz = [0, 10000], target = 0.1 }" \
+            --set "condense = { fixed_interface_modes = 12, enhanced = false,
             interface = { centres = [{ $bore, tie = '$tie' }, { $feet, tie = '$tie' }] } }"
     done
     python3 docs/python/centre_exudyn.py out/matrices out/rigid out/mean       # needs numpy, scipy, exudyn

@@ -161,6 +161,12 @@ fn what_a_shaft_in_space_cannot_have_is_refused_with_its_key() {
     assert!(torn.contains("at the highest speed"), "{torn}");
     let crushed = refusal(SPINDLE, &["shaft.loads=[{force=[0,-2e4,15],at=-8e-3}]"]);
     assert!(crushed.starts_with("bearings[0].bearing.inner_groove_radius: the contact of a ball"), "{crushed}");
+    // both bearings would hold +z: nothing holds the preload
+    let tandem = refusal(SPINDLE, &["bearings.1.bearing.thrust='positive'"]);
+    assert!(
+        tandem.contains("bearings[0].bearing.preload") && tandem.contains("all hold thrust the same way"),
+        "{tandem}"
+    );
     let single = ["shaft.transverse_inertia=1e-5", "bearing.preload={displacement=1e-6}"];
     assert!(refusal("housings/end_shield.toml", &single).contains("bearing.preload"));
     let in_plane = ["shaft.transverse_inertia=1e-5", "shaft.loads=[{force=[0,0,5]}]"];

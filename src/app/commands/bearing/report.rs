@@ -130,7 +130,7 @@ fn stiffness_table(taken: &ShaftEquilibrium) -> Table {
         [Cell::text(name)].into_iter().chain(cells).collect::<Vec<_>>()
     });
     Table::new("Stiffness, the balls following", columns).rows(rows).footnote(
-        "N/m for forces over displacements, N/rad and N beside tilts, N m/rad for moments over tilts, about the bearing's centre. Without speed the matrix is symmetric; friction and inertia of the balls make it lopsided.",
+        "N/m for forces over displacements, N/rad and N beside tilts, N m/rad for moments over tilts, about the first bearing's centre. Without speed the matrix is symmetric; friction and inertia of the balls make it lopsided.",
     )
 }
 
