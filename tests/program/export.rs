@@ -562,8 +562,8 @@ fn a_case_in_space_is_exported() {
     let dofs = fs::read_to_string(folder.join("out/dofs.csv")).unwrap();
     let stiffness: TriMat<f64> = read_matrix_market(folder.join("out/stiffness.mtx")).unwrap();
     assert_eq!(stiffness.rows(), dofs.lines().count() - 1);
-    good(&folder, &format!("export {case} --to op4 --out out --quiet"));
+    good(&folder, &format!("export {case} --to op4 --out out --quiet --set condense.fixed_interface_modes=4"));
     let matrices = read_op4(&folder.join("out/superelement.op4")).unwrap();
-    let boundary = matrices[2].dense().unwrap();
-    assert_eq!((matrices[2].name(), boundary.nrows()), ("BSET", 2 * 24 * 6));
+    let boundary = matrices.iter().find(|matrix| matrix.name() == "BSET").unwrap();
+    assert_eq!(boundary.dense().unwrap().nrows(), 2 * 24 * 6);
 }

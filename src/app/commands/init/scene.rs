@@ -124,17 +124,20 @@ pub(crate) struct Directions {
 /// Angle (rad) below which a fitted axis counts as one of the mesh's: gmsh writes 16 digits, a drawing is not skewed by less.
 const SNAP: f64 = 1e-6;
 
+/// The same of a foot, whose faces need not be even: meshes stand upright.
+const UPRIGHT: f64 = 0.25;
+
 /// Least sine of the angle between foot and shaft by which the foot tells what is up: a flange that is bolted to a wall does not.
 const ACROSS: f64 = 0.5;
 
 impl Directions {
-    /// Up is from the `foot` into the housing (a unit vector). Without one that lies along the shaft it is the mesh's y, as gmsh's
+    /// Up is from the `foot` into the housing (a unit vector). Without one, or where it faces along the shaft, it is the mesh's y, as gmsh's
     /// models have it, or its z for a shaft along y.
     pub(crate) fn of(axis: [f64; 3], foot: Option<Vector3<f64>>) -> Self {
-        let axis = snapped(Vector3::from(axis).normalize());
+        let axis = snapped(Vector3::from(axis).normalize(), SNAP);
         let foot = foot.filter(|foot| axis.cross(foot).norm() > ACROSS);
         let usual = if axis.y.abs() > 0.9 { Vector3::z() } else { Vector3::y() };
-        let upwards = foot.map_or(usual, snapped);
+        let upwards = foot.map_or(usual, |foot| snapped(foot, UPRIGHT));
         let up = (upwards - axis * axis.dot(&upwards)).normalize();
         // without negative zeros
         let plain = |vector: Vector3<f64>| -> [f64; 3] { vector.map(|part| part + 0.0).into() };
@@ -142,14 +145,14 @@ impl Directions {
     }
 }
 
-/// A unit vector, or the axis of the mesh that it is but for round-off.
-fn snapped(vector: Vector3<f64>) -> Vector3<f64> {
+/// A unit vector, or the axis of the mesh that it is `within` an angle (rad).
+fn snapped(vector: Vector3<f64>, within: f64) -> Vector3<f64> {
     let mut axes = (0..3).map(|place| {
         let mut unit = Vector3::zeros();
         unit[place] = vector[place].signum();
         unit
     });
-    axes.find(|unit| (vector - unit).norm() < SNAP).unwrap_or(vector)
+    axes.find(|unit| (vector - unit).norm() < within).unwrap_or(vector)
 }
 
 #[cfg(test)]
@@ -166,7 +169,7 @@ mod tests {
             (y, None, z),
             ([0.6, 0.0, 0.8], None, y),
             (x, Some(z), z),
-            (x, Some([1e-9, 1e-9, 1.0]), z),
+            (x, Some([0.0, 0.0872, 0.9962]), z),
             (y, Some(z), z),
             (y, Some(x), x),
             (z, Some(y), y),
