@@ -28,7 +28,10 @@ impl Table {
         let columns = || self.columns.iter().zip(&judged);
         let line = |fields: Vec<String>| fields.join(",") + "\r\n";
         let header = columns().flat_map(|(column, judged)| {
-            let verdict = judged.then(|| format!("{}: verdict", column.title));
+            let verdict = judged.then(|| match column.title.as_str() {
+                "Verdict" => "Pass or fail".to_owned(),
+                title => format!("{title}: verdict"),
+            });
             once(title(column)).chain(verdict).map(|text| quoted(&guarded(&text)))
         });
         let mut out = line(header.collect());
@@ -224,5 +227,7 @@ mod tests {
     fn badges_are_their_own_verdict() {
         let table = Table::new("t", [Column::text("Verdict")]).row([Cell::badge(Verdict::Ok)]);
         assert_eq!(table.to_csv(), "Verdict\r\npass\r\n");
+        let words = Table::new("t", [Column::text("Verdict")]).row([Cell::text("not seen").judged(Verdict::Ok)]);
+        assert_eq!(words.to_csv(), "Verdict,Pass or fail\r\nnot seen,pass\r\n");
     }
 }

@@ -174,7 +174,7 @@ mod tests {
             .section(
                 Section::new("Model")
                     .paragraph("a < b")
-                    .facts([Fact::new("Balls", "7").note("R & r")])
+                    .facts([Fact::new("Balls", "7").note("R & r, m/s^2")])
                     .drawing(drawing),
             )
             .section(Section::new("Signal").plot(plot(100)).table(table()).plot(plot(50)))
@@ -201,7 +201,7 @@ mod tests {
             "<td class=\"right bad\">95.30</td>",
             "<li>5 &lt; 6</li>",
             "<th class=\"right\">Found<span class=\"unit\">Hz</span></th>",
-            "<dt>Balls</dt><dd>7<span class=\"note\">R &amp; r</span></dd>",
+            "<dt>Balls</dt><dd>7<span class=\"note\">R &amp; r, m&#x2f;s²</span></dd>",
             "<h2><span class=\"number\">3</span>Assumptions</h2>",
             "<h2><span class=\"number\">4</span>How to reproduce</h2>",
             "<h2>Warnings</h2>",

@@ -551,3 +551,19 @@ fn a_superelement_takes_the_housing_s_place() {
     let checked = plummer(&folder, "condense npz.toml --force");
     assert_eq!(checked.status.code(), Some(1));
 }
+
+/// Thrust, preload and loads in front of the bearings ask nothing of the structure.
+#[test]
+fn a_case_in_space_is_exported() {
+    let folder = scratch("space");
+    let case = Path::new(env!("CARGO_MANIFEST_DIR")).join("examples/machines/spindle.toml");
+    let case = case.display();
+    good(&folder, &format!("export {case} --to mtx --out out --quiet"));
+    let dofs = fs::read_to_string(folder.join("out/dofs.csv")).unwrap();
+    let stiffness: TriMat<f64> = read_matrix_market(folder.join("out/stiffness.mtx")).unwrap();
+    assert_eq!(stiffness.rows(), dofs.lines().count() - 1);
+    good(&folder, &format!("export {case} --to op4 --out out --quiet --set condense.fixed_interface_modes=4"));
+    let matrices = read_op4(&folder.join("out/superelement.op4")).unwrap();
+    let boundary = matrices.iter().find(|matrix| matrix.name() == "BSET").unwrap();
+    assert_eq!(boundary.dense().unwrap().nrows(), 2 * 24 * 6);
+}

@@ -220,6 +220,31 @@ fn half_a_noisy_bore_along_x_away_from_the_origin() {
     assert_eq!(modes.status.code(), Some(0), "{}", errors(&modes));
 }
 
+/// Feet below the mesh's z, or beside its x, where the shaft lies along x, y or z.
+#[test]
+fn up_is_away_from_the_foot() {
+    let folder = scratch("init-up");
+    for (name, axes) in [
+        ("x", [[0.0, 1.0, 0.0], [0.0, 0.0, 1.0], [1.0, 0.0, 0.0]]),
+        ("y", [[-1.0, 0.0, 0.0], [0.0, 0.0, 1.0], [0.0, 1.0, 0.0]]),
+        ("z", [[0.0, 1.0, 0.0], [-1.0, 0.0, 0.0], [0.0, 0.0, 1.0]]),
+    ] {
+        let tube = Tube { inner: 26.0, outer: 40.0, length: 15.0, axes, ..Tube::default() };
+        fs::write(folder.join(format!("{name}.msh")), tube.msh()).unwrap();
+        init(&folder, &[&format!("{name}.msh")]);
+        let text = fs::read_to_string(folder.join(format!("{name}.toml"))).unwrap();
+        assert!(text.replace("\n# ", " ").contains("90 degrees point up, away from the foot"), "{text}");
+        let case = Case::load(folder.join(format!("{name}.toml")), &[]).unwrap();
+        let tie = case.ring.as_ref().unwrap().tie.as_ref().unwrap();
+        let (a, b) = (tie.axis, tie.zero_deg);
+        let ninety = [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]];
+        for (place, up) in axes[1].into_iter().enumerate() {
+            assert!((ninety[place] - up).abs() < 1e-9, "{name}: {tie:?}");
+            assert!((case.sensors[0].direction[place] - up).abs() < 1e-9, "{name}");
+        }
+    }
+}
+
 #[test]
 fn the_bearing_tells_the_unit() {
     let folder = scratch("init-unit");

@@ -15,6 +15,7 @@ Files:
   mtx  stiffness.mtx, mass.mtx, dofs.csv: free degrees of freedom (Matrix Market; scipy.io.mmread)
   npz  stiffness.npz, mass.npz, dofs.npz, modes.npz (scipy.sparse.load_npz, numpy.load)
   op4  superelement.op4, superelement_dofs.csv: KAA, MAA, BAA, K4AA of the condensed housing, interface first (pyyeti.nastran.op4)
+  dmig  superelement.bdf: grids and DMIG matrices of the condensed housing, Nastran bulk data
   inp  housing.inp: mesh, sets, surfaces, materials, held nodes, a *FREQUENCY step in SI (ccx -i housing)
   mbdyn  superelement.fem: data of MBDyn's modal joint";
 

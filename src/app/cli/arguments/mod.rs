@@ -122,7 +122,7 @@ pub enum Command {
         /// Case file (TOML)
         case: PathBuf,
     },
-    /// Find where a rigid shaft rests in its ball bearing in space: displacements, ball loads and angles, stiffness, orders
+    /// Find where a rigid shaft rests in its ball bearings in space: displacements, ball loads and angles, stiffness, orders
     #[command(after_help = BEARING_EXAMPLE)]
     Bearing {
         /// Case file (TOML)

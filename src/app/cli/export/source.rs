@@ -43,7 +43,6 @@ impl Source {
     pub(super) fn open(from: &Path, options: &Options) -> Result<Self, CliError> {
         if !from.is_dir() {
             let case = Case::load(from, &options.set)?;
-            case.in_the_plane()?;
             return Ok(Self { case, folder: None });
         }
         if !options.set.is_empty() {

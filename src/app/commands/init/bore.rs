@@ -138,6 +138,28 @@ pub(crate) fn spot(
     best.map(|(_, corner)| corner).or(highest).map(Into::into)
 }
 
+/// Parts of names of what a housing stands on.
+const STANDS: [&str; 4] = ["foot", "feet", "base", "ground"];
+
+/// Least length of the sum of a foot's normals, over its area: those of bolt holes cancel.
+const FLAT: f64 = 0.5;
+
+/// Unit vector from the supports named like feet into the housing; `None` without one, or where their faces look all ways.
+pub(crate) fn stands_along(mesh: &Mesh, rim: &Rim, supports: &[SupportGuess]) -> Option<Vector3<f64>> {
+    let feet = supports.iter().filter(|support| says(&support.group, &STANDS));
+    let groups = feet.filter_map(|support| mesh.group(&support.group).ok());
+    let (mut sum, mut area) = (Vector3::zeros(), 0.0);
+    for facet in groups.flat_map(|group| rim.facets_of(mesh, &group.elements)) {
+        let corners: Vec<Vector3<f64>> = facet.corners().iter().map(|&c| Vector3::from(c)).collect();
+        if let Some(normal) = outwards(&facet, &corners) {
+            let own = facet.area().norm();
+            sum -= normal * own;
+            area += own;
+        }
+    }
+    if sum.norm() > FLAT * area { sum.try_normalize(0.0) } else { None }
+}
+
 /// Unit normal of a face away from its element; `None` for a face without area.
 fn outwards(facet: &Facet, corners: &[Vector3<f64>]) -> Option<Vector3<f64>> {
     let normal = facet.area().try_normalize(f64::MIN_POSITIVE)?;

@@ -133,7 +133,7 @@ pub(crate) fn find<'a>(
         [] => bore.cylinder.axis,
         further => common_axis(&bore.cylinder, further),
     });
-    let directions = Directions::of(axis);
+    let directions = Directions::of(axis, bore::stands_along(mesh, &rim, &groups.supports));
     let middle = inventory.bounding_box;
     let middle = [0, 1, 2].map(|axis| 0.5 * (middle.min[axis] + middle.max[axis]));
     let seen = [directions.up, directions.axis];

@@ -117,28 +117,42 @@ pub(crate) struct Directions {
     pub zero: [f64; 3],
     /// The bearing's y, against gravity.
     pub up: [f64; 3],
+    /// Whether a foot says what is up.
+    pub by_foot: bool,
 }
 
 /// Angle (rad) below which a fitted axis counts as one of the mesh's: gmsh writes 16 digits, a drawing is not skewed by less.
 const SNAP: f64 = 1e-6;
 
+/// The same of a foot, whose faces need not be even: meshes stand upright.
+const UPRIGHT: f64 = 0.25;
+
+/// Least sine of the angle between foot and shaft by which the foot tells what is up: a flange that is bolted to a wall does not.
+const ACROSS: f64 = 0.5;
+
 impl Directions {
-    /// Up is the mesh's y, as gmsh's models have it, or its z for a shaft along y.
-    pub(crate) fn of(axis: [f64; 3]) -> Self {
-        let mut axis = Vector3::from(axis).normalize();
-        for place in 0..3 {
-            let mut unit = Vector3::zeros();
-            unit[place] = axis[place].signum();
-            if (axis - unit).norm() < SNAP {
-                axis = unit;
-            }
-        }
-        let upwards = if axis.y.abs() > 0.9 { Vector3::z() } else { Vector3::y() };
+    /// Up is from the `foot` into the housing (a unit vector). Without one, or where it faces along the shaft, it is the mesh's y, as gmsh's
+    /// models have it, or its z for a shaft along y.
+    pub(crate) fn of(axis: [f64; 3], foot: Option<Vector3<f64>>) -> Self {
+        let axis = snapped(Vector3::from(axis).normalize(), SNAP);
+        let foot = foot.filter(|foot| axis.cross(foot).norm() > ACROSS);
+        let usual = if axis.y.abs() > 0.9 { Vector3::z() } else { Vector3::y() };
+        let upwards = foot.map_or(usual, |foot| snapped(foot, UPRIGHT));
         let up = (upwards - axis * axis.dot(&upwards)).normalize();
         // without negative zeros
         let plain = |vector: Vector3<f64>| -> [f64; 3] { vector.map(|part| part + 0.0).into() };
-        Self { axis: plain(axis), zero: plain(up.cross(&axis)), up: plain(up) }
+        Self { axis: plain(axis), zero: plain(up.cross(&axis)), up: plain(up), by_foot: foot.is_some() }
     }
+}
+
+/// A unit vector, or the axis of the mesh that it is `within` an angle (rad).
+fn snapped(vector: Vector3<f64>, within: f64) -> Vector3<f64> {
+    let mut axes = (0..3).map(|place| {
+        let mut unit = Vector3::zeros();
+        unit[place] = vector[place].signum();
+        unit
+    });
+    axes.find(|unit| (vector - unit).norm() < within).unwrap_or(vector)
 }
 
 #[cfg(test)]
@@ -148,13 +162,23 @@ mod tests {
 
     #[test]
     fn the_frame_that_the_case_makes_has_its_y_upwards() {
-        for (axis, up) in [
-            ([0.0, 0.0, 1.0], [0.0, 1.0, 0.0]),
-            ([1.0, 0.0, 1e-8], [0.0, 1.0, 0.0]),
-            ([0.0, 1.0, 0.0], [0.0, 0.0, 1.0]),
-            ([0.6, 0.0, 0.8], [0.0, 1.0, 0.0]),
+        let [x, y, z] = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
+        for (axis, foot, up) in [
+            (z, None, y),
+            ([1.0, 0.0, 1e-8], None, y),
+            (y, None, z),
+            ([0.6, 0.0, 0.8], None, y),
+            (x, Some(z), z),
+            (x, Some([0.0, 0.0872, 0.9962]), z),
+            (y, Some(z), z),
+            (y, Some(x), x),
+            (z, Some(y), y),
+            (z, Some([0.0, -1.0, 0.0]), [0.0, -1.0, 0.0]),
+            // a flange
+            (x, Some([-1.0, 0.0, 0.0]), y),
+            (z, Some(z), y),
         ] {
-            let found = Directions::of(axis);
+            let found = Directions::of(axis, foot.map(Into::into));
             let frame = RingFrame::new([0.0; 3], found.axis, found.zero).unwrap();
             let y = frame.vector_to_mesh([0.0, 1.0, 0.0]);
             for place in 0..3 {
@@ -162,9 +186,9 @@ mod tests {
                 assert!((y[place] - found.up[place]).abs() < 1e-12, "{axis:?}: {y:?}");
             }
         }
-        let snapped = Directions::of([1.0, 0.0, 1e-8]).axis;
+        let snapped = Directions::of([1.0, 0.0, 1e-8], None).axis;
         assert_eq!(snapped.map(f64::to_bits), [1.0_f64, 0.0, 0.0].map(f64::to_bits));
-        let kept = Directions::of([1.0, 0.0, 1e-4]).axis;
+        let kept = Directions::of([1.0, 0.0, 1e-4], None).axis;
         assert!(kept[2] > 9e-5);
     }
 }

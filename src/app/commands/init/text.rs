@@ -43,7 +43,7 @@ fn size_sentence(found: &Found<'_>) -> String {
 /// "a cylinder of radius 6 mm about z, all round, its nodes within ..."
 fn describe(cylinder: &FoundCylinder, plane: bool) -> String {
     let what = if plane { "circle" } else { "cylinder" };
-    let axis = Directions::of(cylinder.axis).axis;
+    let axis = Directions::of(cylinder.axis, None).axis;
     let along = ["x", "y", "z"].into_iter().zip(axis).find(|(_, part)| part.abs() > 1.0 - 1e-12);
     let about = match along {
         Some((name, _)) => name.to_owned(),

@@ -56,8 +56,9 @@ pub(crate) fn bearing_fact(bearing: &Bearing) -> Fact {
     };
     let grooves = [bearing.inner_groove_radius, bearing.outer_groove_radius];
     let [inner_groove, outer_groove] = grooves.map(|radius| given(50.0 * radius / bearing.ball_radius));
+    let name = bearing.name.as_ref().map_or_else(String::new, |name| format!("{name}, "));
     let text = format!(
-        "{} balls of {}, races of {inner} and {outer}, groove radii of {inner_groove} % and {outer_groove} % of the ball's diameter, {clearance}",
+        "{name}{} balls of {}, races of {inner} and {outer}, groove radii of {inner_groove} % and {outer_groove} % of the ball's diameter, {clearance}",
         bearing.balls,
         length(2.0 * bearing.ball_radius)
     );
@@ -312,6 +313,14 @@ mod tests {
         assert_eq!(told(Conclusion::NotEnough, None), None);
         let sound = Case::example("tadina2011/healthy", &[]);
         assert_eq!(missed_by(&sound, "", &diagnosis(Conclusion::NotSeen, Some(0.5))), None);
+    }
+
+    #[test]
+    fn a_bearing_of_the_catalogue_is_named() {
+        let mut bearing = Case::example("tadina2011/healthy", &[]).bearing.unwrap();
+        assert!(bearing_fact(&bearing).value.starts_with("7 balls of "));
+        bearing.name = Some("6305".to_owned());
+        assert!(bearing_fact(&bearing).value.starts_with("6305, 7 balls of "));
     }
 
     #[test]
