@@ -1,7 +1,8 @@
 //! Three doubts of a part whose comb stands out: impacts that are no part's may have some of its lines.
 //!
 //! - They repeat more seldom: every second to fifth of their harmonics is one of the part's, and the others stand between.
-//! - They repeat twice or three times as often: only every second or third harmonic of the part stands out.
+//! - They repeat twice or three times as often: only every second or third harmonic of the part stands out. As many flaws at equal
+//!   distances do the same.
 //! - They lie at an order beside that of the part, where the comb fits better.
 
 use super::comb::best_fit;
@@ -43,7 +44,7 @@ impl Search<'_> {
         // lines beside the harmonics count in a sided comb, and these need not stand out
         if let Some(times) = (2..=MOST_MULTIPLE).filter(|_| fit.beside.is_none()).find(multiple) {
             return Some(format!(
-                "Only harmonics of {:.2} Hz stand out, {times} times its frequency: something strikes that often, and it is no part of this bearing.",
+                "Only harmonics of {:.2} Hz stand out, {times} times its frequency. One flaw has all harmonics; {times} at equal distances, or something else that strikes that often, have these.",
                 hz(fit.order * f64::from(times))
             ));
         }

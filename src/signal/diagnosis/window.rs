@@ -223,7 +223,7 @@ impl Diagnosis {
 
     /// The strongest thing that is said of any part, and of which parts; `None` where none could be judged. A race or ball that
     /// could not be judged counts as not enough evidence; the cage turns so slowly that most windows are too short for it.
-    fn decisive(&self) -> Option<(Conclusion, Vec<&FaultVerdict>)> {
+    pub(crate) fn decisive(&self) -> Option<(Conclusion, Vec<&FaultVerdict>)> {
         let is_judged = |verdict: &FaultVerdict| verdict.false_alarm.is_some();
         if !self.faults.iter().any(is_judged) {
             return None;

@@ -35,7 +35,7 @@ pub(super) struct Source {
     details: Option<ReportDetails>,
     /// What is taken for granted, in words.
     pub(super) assumptions: Vec<String>,
-    /// What was typed against the file's own words, and what is wrong with the signals.
+    /// Bearings that the signals do not tell apart, what was typed against the file's own words, and what is wrong with the signals.
     pub(super) doubts: Vec<String>,
     /// Named channels that are not there, with the error.
     pub(super) absent: Vec<(String, CliError)>,
@@ -101,7 +101,7 @@ impl Source {
         let option = if of_baseline { "--baseline-rate" } else { "--rate" };
         let settings = settings(asked, case.as_ref().filter(|_| is_run), &turning);
         let mut assumptions = read.left_out;
-        let mut doubts = Vec::new();
+        let mut doubts = turning.alike.clone();
         for signal in &signals {
             let typed = turning.overruled(signal, asked.rate.map(|rate| (option, rate)));
             let flaws = flaws(signal, &settings.windows);

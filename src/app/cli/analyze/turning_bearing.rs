@@ -6,6 +6,7 @@ use super::{AnalyzeArguments, GivenSpeed};
 use crate::app::case::{Case, bearing_help};
 use crate::app::cli::{CliError, Options};
 use crate::app::commands::analyze::DamageShown;
+use crate::app::commands::run::alike;
 use crate::app::error::ComputeError;
 use crate::app::scene::{bearing_geometry, bearing_setup};
 use crate::bearing::catalogue::CatalogueBearing;
@@ -35,6 +36,8 @@ pub(super) struct TurningBearing {
     pub(super) own_first: bool,
     /// The bearing of a run in space that is asked for: its label, and what its damage adds to the signals.
     pub(super) of_run: Option<(String, DamageShown)>,
+    /// The run's other bearings that strike at the same orders, a sentence each.
+    pub(super) alike: Vec<String>,
 }
 
 impl TurningBearing {
@@ -88,12 +91,13 @@ impl TurningBearing {
                 .map(|(bearing, name)| described(bearing, name, asked.contact_angle)),
             own_first: false,
             of_run: None,
+            alike: Vec::new(),
         })
     }
 
     /// One of the bearings of a run in space, at the orders that its results say.
     fn of_run_in_space(asked: &AnalyzeArguments, folder: &Path, case: &Case, label: &str) -> Result<Self, CliError> {
-        let (rolling, damage) = bearing_of_results(folder, label)?;
+        let (rolling, damage, alike) = bearing_of_results(folder, label)?;
         let orders = FaultOrders::of(&rolling, asked.geometry_error.unwrap_or(0.0)).map_err(ComputeError::from)?;
         Ok(Self {
             orders: Some(orders),
@@ -103,6 +107,7 @@ impl TurningBearing {
             catalogue: None,
             own_first: false,
             of_run: Some((label.to_owned(), damage)),
+            alike,
         })
     }
 
@@ -205,8 +210,8 @@ fn bearing_of_run(asked: &AnalyzeArguments, case: &Case) -> Result<Option<String
     }
 }
 
-/// The orders of a bearing that the results of a run say, and what its damage adds to the signals.
-fn bearing_of_results(folder: &Path, label: &str) -> Result<(DefectOrders, DamageShown), CliError> {
+/// The orders of a bearing that the results of a run say, what its damage adds to the signals, and which others strike at the same orders.
+fn bearing_of_results(folder: &Path, label: &str) -> Result<(DefectOrders, DamageShown, Vec<String>), CliError> {
     #[derive(serde::Deserialize)]
     struct Orders {
         cage: f64,
@@ -229,15 +234,17 @@ fn bearing_of_results(folder: &Path, label: &str) -> Result<(DefectOrders, Damag
         std::fs::read_to_string(&path).map_err(|error| CliError::input(format!("{}: {error}", path.display())))?;
     let results: Result<Results, _> = serde_json::from_str(&text);
     let results = results.map_err(|error| CliError::input(format!("{}: {error}", path.display())))?;
-    let own = results.bearings.into_iter().find(|own| own.label == label);
-    let Some(OfBearing { defect_orders: Orders { cage, outer, inner, ball }, damage_share, .. }) = own else {
+    let orders = |of: &OfBearing| {
+        let Orders { cage, outer, inner, ball } = of.defect_orders;
+        DefectOrders { cage, outer, inner, ball_spin: 0.5 * ball, ball_defect: ball }
+    };
+    let Some(own) = results.bearings.iter().find(|own| own.label == label) else {
         let what = format!("{}: found no bearing \"{label}\", expected the orders of one", path.display());
         return Err(CliError::input(what).with_help("compute the run anew"));
     };
-    Ok((
-        DefectOrders { cage, outer, inner, ball_spin: 0.5 * ball, ball_defect: ball },
-        DamageShown::in_space(damage_share),
-    ))
+    let others = results.bearings.iter().filter(|other| other.label != label);
+    let same = others.filter_map(|other| alike((label, &orders(own)), (&other.label, &orders(other))));
+    Ok((orders(own), DamageShown::in_space(own.damage_share), same.collect()))
 }
 
 /// A case whose bearing stays in its plane, as orders at no contact angle do.

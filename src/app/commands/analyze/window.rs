@@ -94,9 +94,16 @@ fn good_to_hz(case: &Case) -> Option<f64> {
     Some(case.band_hz()?[1].min(passed))
 }
 
-/// Multiples of another bearing's lines that are known for its own, and how near an order has to be, relative.
+/// Multiples of a bearing's lines that are known for its own, and how near an order has to be, relative.
 const LISTED_MULTIPLES: u32 = 6;
 const SAME_ORDER: f64 = 5e-3;
+
+/// Whether an order is a multiple of a line of one of these bearings.
+fn is_line_of(bearings: &[DefectOrders], order: f64) -> bool {
+    let lines = bearings.iter().flat_map(|own| [own.outer, own.inner, own.ball_defect, own.cage]);
+    let mut multiples = lines.flat_map(|line| (1..=LISTED_MULTIPLES).map(move |k| f64::from(k) * line));
+    multiples.any(|line| (order / line - 1.0).abs() < SAME_ORDER)
+}
 
 /// What of a signal lies in the band of its case.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, JsonSchema)]
@@ -202,16 +209,11 @@ fn verdict_summary<S: Serializer>(diagnosis: &Result<Diagnosis, String>, to: S) 
 }
 
 impl WindowAnalysis {
-    /// The same of a bearing with this label, which is empty for the only one. Impacts at the orders of the machine's other bearings, or
-    /// their multiples, are theirs and no longer unexplained.
-    pub(crate) fn of_bearing(mut self, label: &str, others: &[DefectOrders]) -> Self {
-        let theirs = |order: f64| {
-            let lines = others.iter().flat_map(|own| [own.outer, own.inner, own.ball_defect, own.cage]);
-            let mut multiples = lines.flat_map(|line| (1..=LISTED_MULTIPLES).map(move |k| f64::from(k) * line));
-            multiples.any(|line| (order / line - 1.0).abs() < SAME_ORDER)
-        };
+    /// The same of a bearing with this label, which is empty for the only one. Impacts at the orders of the bearings of a machine that has
+    /// several, this one's among them, or at their multiples, are theirs and not unexplained.
+    pub(crate) fn of_bearing(mut self, label: &str, several: &[DefectOrders]) -> Self {
         if let Ok(diagnosis) = &mut self.diagnosis {
-            diagnosis.unexplained.retain(|impacts| !theirs(impacts.order));
+            diagnosis.unexplained.retain(|impacts| !is_line_of(several, impacts.order));
         }
         Self { bearing: Some(label.to_owned()).filter(|label| !label.is_empty()), ..self }
     }
@@ -528,6 +530,20 @@ fn ball_weights(case: &Case, bearing: &Bearing) -> Option<f64> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::bearing::kinematics::BallRow;
+
+    #[test]
+    fn multiples_of_a_bearings_lines_are_its_own() {
+        let bearings =
+            [(9, 0.0), (7, 0.3)].map(|(balls, angle)| BallRow::new(balls, 4e-3, 19.5e-3, angle).unwrap().orders());
+        let [one, other] = bearings;
+        for line in [one.outer, one.inner, other.ball_defect, other.cage] {
+            assert!(is_line_of(&bearings, 2.0013 * line) && is_line_of(&bearings, 6.0 * line), "{line}");
+        }
+        assert!(!is_line_of(&bearings, 2.02 * one.outer));
+        // of a machine with one bearing nothing is known for its own here
+        assert!(!is_line_of(&[], one.outer));
+    }
 
     #[test]
     fn lines_that_the_speed_smears_are_left_out() {

@@ -1,6 +1,7 @@
 //! `plummer run`: equilibrium, transient, signals, analysis.
 
-use super::machine::{BearingModel, Machine, PlaneMachine, SpatialMachine, at_the_order_of};
+use super::machine::{BearingModel, Machine, PlaneMachine, SpatialMachine};
+use super::machine_verdict::MachineVerdict;
 use super::recording::{Checkpoints, InMemory, Recording};
 use super::scalogram::SensorScalogram;
 use super::simulation::{RunEnd, Simulation, Span};
@@ -11,7 +12,7 @@ use crate::app::error::ComputeError;
 use crate::app::scene::{MachineScene, Scene};
 use crate::numerics::Watch;
 use crate::report::significant;
-use crate::signal::diagnosis::{Conclusion, Fault, Kinematics};
+use crate::signal::diagnosis::Kinematics;
 use crate::system::{EnergyBalance, LoadedModes, RunRecord, Statics};
 
 /// Samples up to which the balance of energy is taken unless the case says otherwise: it takes 4300 to 9700 instructions a sample
@@ -182,39 +183,9 @@ impl<R: Recording> RunResult<R> {
         }
     }
 
-    /// Every part that a signal names, with its bearing and sensors, in words.
+    /// What the signals of all sensors say of all bearings, in words.
     pub(crate) fn verdict_on_machine(&self) -> String {
-        let mut named: Vec<((&str, Fault), Vec<&str>)> = Vec::new();
-        for window in &self.windows {
-            for verdict in window.parts(Conclusion::Named) {
-                let part = (window.bearing.as_deref().unwrap_or_default(), verdict.fault);
-                match named.iter_mut().find(|(known, _)| *known == part) {
-                    Some((_, sensors)) => sensors.push(&window.sensor),
-                    None => named.push((part, vec![&window.sensor])),
-                }
-            }
-        }
-        if named.is_empty() {
-            return "no fault indicated".to_owned();
-        }
-        let in_words = |(label, fault): (&str, Fault)| match label {
-            "" => fault.name().to_owned(),
-            label => format!("bearing {label}, {}", fault.name()),
-        };
-        let bearings = self.machine.bearings();
-        let told = named.into_iter().map(|(part, mut sensors)| {
-            sensors.dedup();
-            let alike: Vec<String> = at_the_order_of(&bearings, part).into_iter().map(in_words).collect();
-            let alike = match alike.is_empty() {
-                true => String::new(),
-                false => format!(
-                    "; {} strikes at the same order: the damage that the case has decides, the signals do not",
-                    alike.join(" and ")
-                ),
-            };
-            format!("{} (by {}{alike})", in_words(part), sensors.join(", "))
-        });
-        told.collect::<Vec<_>>().join("; ")
+        MachineVerdict::of(&self.windows).words(&self.machine.bearings())
     }
 
     /// Kept modes, and the vectors that stand for the others, in words.
@@ -280,6 +251,7 @@ impl<R: Recording> RunResult<R> {
     /// Envelope analysis of every sensor for every bearing; a window that the record does not reach is named instead.
     fn analyse(&mut self, case: &Case) {
         let bearings = self.machine.bearings();
+        let several: Vec<_> = bearings.iter().filter(|_| bearings.len() > 1).map(|bearing| bearing.orders).collect();
         for (bearing, seat) in bearings.iter().zip(case.seats()) {
             let settings = AnalysisSettings::of(case, seat.bearing, bearing.damage);
             let kinematics = Kinematics::of(bearing.cage, bearing.balls, bearing.orders);
@@ -287,9 +259,7 @@ impl<R: Recording> RunResult<R> {
                 let read = |window, margin| self.simulation.stretch(index, window, margin);
                 match analyse(name, &settings, read, &kinematics) {
                     Ok(windows) => {
-                        let others = bearings.iter().filter(|other| other.label != bearing.label);
-                        let others: Vec<_> = others.map(|other| other.orders).collect();
-                        let windows = windows.into_iter().map(|window| window.of_bearing(bearing.label, &others));
+                        let windows = windows.into_iter().map(|window| window.of_bearing(bearing.label, &several));
                         self.windows.extend(windows);
                     }
                     Err(error) if seat.is_first() => self.not_analysed.push(format!("{name}: {error}")),

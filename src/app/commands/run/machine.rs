@@ -157,20 +157,21 @@ impl Machine {
     /// That bearings strike at the same orders, a sentence a pair.
     pub(super) fn alike(&self) -> Vec<String> {
         let bearings = self.bearings();
-        let near = |a: f64, b: f64| (a - b).abs() <= ALIKE * a;
-        let mut found = Vec::new();
-        for (index, one) in bearings.iter().enumerate() {
-            for other in &bearings[..index] {
-                if near(one.orders.outer, other.orders.outer) && near(one.orders.inner, other.orders.inner) {
-                    found.push(format!(
-                        "bearings {} and {} strike at the same orders: a verdict on one holds for the other as well, and only the sensors' levels tell them apart",
-                        other.label, one.label
-                    ));
-                }
-            }
-        }
-        found
+        let pairs = bearings.iter().enumerate().flat_map(|(index, one)| {
+            bearings[..index].iter().filter_map(|other| alike((other.label, &other.orders), (one.label, &one.orders)))
+        });
+        pairs.collect()
     }
+}
+
+/// That two bearings strike at the same orders, if they do.
+pub(crate) fn alike((one, of_one): (&str, &DefectOrders), (other, of_other): (&str, &DefectOrders)) -> Option<String> {
+    let near = |a: f64, b: f64| (a - b).abs() <= ALIKE * a;
+    (near(of_one.outer, of_other.outer) && near(of_one.inner, of_other.inner)).then(|| {
+        format!(
+            "bearings {one} and {other} strike at the same orders: a verdict on one holds for the other as well, and only the sensors' levels tell them apart"
+        )
+    })
 }
 
 /// The parts of other bearings that strike at the order of one, each with its bearing's label.
@@ -208,5 +209,11 @@ mod tests {
         let found = at_the_order_of(&motions, ("A", Fault::OuterRace));
         assert_eq!(found, [("B", Fault::OuterRace), ("D", Fault::InnerRace)]);
         assert_eq!(at_the_order_of(&motions, ("C", Fault::OuterRace)), []);
+        let pair = |one: usize, other: usize| {
+            let [one, other] = [one, other].map(|index| (motions[index].label, &motions[index].orders));
+            super::alike(one, other)
+        };
+        assert!(pair(0, 1).unwrap().starts_with("bearings A and B strike at the same orders"));
+        assert_eq!([pair(0, 2), pair(0, 3)], [None, None]);
     }
 }
