@@ -66,6 +66,9 @@ pub struct RunCase<'c> {
     pub transient: &'c Transient,
 }
 
+/// A bearing, and what stands before its keys.
+type PrefixedBearing<'c> = (String, &'c Bearing);
+
 impl<'c> AskedRun<'c> {
     /// The whole case.
     pub(crate) fn case(&self) -> &'c Case {
@@ -208,7 +211,7 @@ impl Case {
     ///
     /// # Errors
     /// [`CaseError`] with the first table that the case lacks.
-    pub(crate) fn for_bearing<'c>(&'c self) -> Result<(Vec<(String, &'c Bearing)>, &'c Shaft), CaseError> {
+    pub(crate) fn for_bearing<'c>(&'c self) -> Result<(Vec<PrefixedBearing<'c>>, &'c Shaft), CaseError> {
         let by = "`bearing`";
         let bearings = match self.bearings.is_empty() {
             true => vec![(String::new(), self.needed(by, "[bearing]", self.bearing.as_ref())?)],

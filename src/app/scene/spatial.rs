@@ -4,8 +4,8 @@ use super::bearing::{contacts_of, geometry};
 use super::housing::frame;
 use crate::app::case::{self, Case, ContactStiffness, Preload, Rule, Seat};
 use crate::app::error::ComputeError;
-use crate::bearing::spatial::{MountedBearing, RigidShaft, ShaftLoad, SpatialBearing, Thrust};
-use crate::bearing::{BearingError, ContactStiffness as Stiffness};
+use crate::bearing::spatial::{BearingState, MountedBearing, RigidShaft, ShaftLoad, SpatialBearing, Thrust};
+use crate::bearing::{BearingError, ContactStiffness as Stiffness, RatingLife};
 use crate::fe::model::RingFrame;
 use crate::system::LoadProfile;
 use std::f64::consts::TAU;
@@ -43,6 +43,23 @@ pub(crate) struct OwnBearing {
     /// Azimuth of ball 0, rad.
     pub cage_angle: f64,
     pub preload: Option<Preload>,
+}
+
+impl OwnBearing {
+    /// Load rating and rating life under the loads of a state, at a speed (rad/s).
+    ///
+    /// # Errors
+    /// [`BearingError`]: what the standard does not hold for.
+    pub(crate) fn rating_life(&self, state: &BearingState, speed: f64) -> Result<RatingLife, BearingError> {
+        let loads: Vec<[f64; 2]> = state.balls.iter().map(|ball| ball.load).collect();
+        self.bearing.rating_life(&loads, largest_pressure(state), speed)
+    }
+}
+
+/// Largest contact pressure of a bearing, Pa.
+pub(crate) fn largest_pressure(state: &BearingState) -> f64 {
+    let patches = state.balls.iter().flat_map(|ball| &ball.patch);
+    patches.map(|patch| patch.peak_pressure).fold(0.0, f64::max)
 }
 
 impl SpatialScene {

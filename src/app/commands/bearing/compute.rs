@@ -237,7 +237,7 @@ pub(super) fn curve(
             point.stiffness = Some(std::array::from_fn(|axis| found.stiffness[axis][axis]));
             let lives = scene.bearings.iter().zip(&found.bearings);
             let lives: Option<Vec<f64>> =
-                lives.map(|(own, state)| rating_life(&scene, own, state).ok()?.life_mrev).collect();
+                lives.map(|(own, state)| own.rating_life(state, scene.speed).ok()?.life_mrev).collect();
             point.life = lives.and_then(|lives| lives.into_iter().reduce(f64::min));
         }
         Ok(())
@@ -261,24 +261,8 @@ fn at_rest(scene: &SpatialScene, own: &OwnBearing, state: &BearingState) -> Resu
         free_contact_angle: geometry.free_contact_angle(),
         contact_angle,
         orders: row.orders(),
-        life: rating_life(scene, own, state).ok(),
+        life: own.rating_life(state, scene.speed).ok(),
     })
-}
-
-/// Load rating and rating life of a bearing.
-pub(super) fn rating_life(
-    scene: &SpatialScene,
-    own: &OwnBearing,
-    state: &BearingState,
-) -> Result<RatingLife, BearingError> {
-    let loads: Vec<[f64; 2]> = state.balls.iter().map(|ball| ball.load).collect();
-    own.bearing.rating_life(&loads, largest_pressure(state), scene.speed)
-}
-
-/// Largest contact pressure, Pa.
-pub(super) fn largest_pressure(state: &BearingState) -> f64 {
-    let patches = state.balls.iter().flat_map(|ball| &ball.patch);
-    patches.map(|patch| patch.peak_pressure).fold(0.0, f64::max)
 }
 
 /// Mean contact angle at the inner race, weighted by the loads; 0 without any.

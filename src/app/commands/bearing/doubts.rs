@@ -1,8 +1,7 @@
 //! What of a case `plummer bearing` leaves out, and what of its result is to be looked at.
 
-use super::compute::{largest_pressure, rating_life};
 use crate::app::case::{Case, Slip};
-use crate::app::scene::spatial::{OwnBearing, SpatialScene};
+use crate::app::scene::spatial::{OwnBearing, SpatialScene, largest_pressure};
 use crate::bearing::life::STATIC_PRESSURE;
 use crate::bearing::spatial::{BearingState, ShaftEquilibrium, Thrust};
 
@@ -66,7 +65,7 @@ fn does_not_count(case: &Case, scene: &SpatialScene) -> Vec<String> {
 /// What of a bearing's state is to be looked at.
 fn doubts_of(scene: &SpatialScene, own: &OwnBearing, state: &BearingState) -> Vec<String> {
     let mut doubts = Vec::new();
-    match rating_life(scene, own, state) {
+    match own.rating_life(state, scene.speed) {
         Err(error) => doubts.push(format!("no rating life, ISO 281 does not hold: {error}")),
         Ok(life) => doubts.extend(life.doubt()),
     }
