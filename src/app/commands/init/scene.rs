@@ -131,8 +131,8 @@ const UPRIGHT: f64 = 0.25;
 const ACROSS: f64 = 0.5;
 
 impl Directions {
-    /// Up is from the `foot` into the housing (a unit vector). Without one, or where it faces along the shaft, it is the mesh's y, as gmsh's
-    /// models have it, or its z for a shaft along y.
+    /// Up is from the `foot` into the housing (a unit vector). Without one, or where it faces along the shaft, it is the mesh's y, as
+    /// gmsh's models have it, or its z for a shaft along y.
     pub(crate) fn of(axis: [f64; 3], foot: Option<Vector3<f64>>) -> Self {
         let axis = snapped(Vector3::from(axis).normalize(), SNAP);
         let foot = foot.filter(|foot| axis.cross(foot).norm() > ACROSS);
