@@ -1,7 +1,7 @@
 //! What the signals of all sensors say of a machine, in a line: no more and no less than the headlines of its windows.
 
 use super::machine::{BearingMotion, at_the_order_of};
-use crate::app::commands::analyze::WindowAnalysis;
+use crate::app::commands::analyze::{DamageShown, WindowAnalysis};
 use crate::signal::diagnosis::{Conclusion, Diagnosis, Fault};
 
 /// A part, with the label of its bearing, which is empty for the only one.
@@ -49,10 +49,14 @@ impl<'a> MachineVerdict<'a> {
         }
     }
 
-    /// In words. A part that one sensor names is not said to be open for another.
+    /// In words. A part that one sensor names is not said to be open for another, nor beside named parts one of a bearing that the case
+    /// has without damage.
     pub(super) fn words(mut self, bearings: &[BearingMotion<'_>]) -> String {
         let named = &self.named;
-        self.open.retain(|(part, _)| named.iter().all(|(known, _)| known != part));
+        let sound = |label: &str| {
+            bearings.iter().any(|own| own.label == label && own.damage == DamageShown::Share(0.0)) && !named.is_empty()
+        };
+        self.open.retain(|(part, _)| named.iter().all(|(known, _)| known != part) && !sound(part.0));
         let by = |sensors: &[&str]| format!("by {}", sensors.join(", "));
         let parts = |parts: &[(Part<'_>, Vec<&str>)]| -> Vec<String> {
             parts.iter().map(|(part, sensors)| format!("{} ({})", part_words(*part), by(sensors))).collect()
