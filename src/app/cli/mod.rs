@@ -98,6 +98,9 @@ fn on_arguments() -> ExitCode {
     }
 }
 
+/// Address space of a thread, bytes: its stack of 2 MB, and what it allocates to begin.
+const OF_THREAD: usize = (2 << 20) + (256 << 10);
+
 /// Carries out one command and writes its result to `to`.
 ///
 /// # Errors
@@ -106,13 +109,22 @@ pub(crate) fn execute(arguments: &Arguments, to: &mut impl Write) -> Result<(), 
     arguments::check_set(arguments)?;
     let options = &arguments.options;
     let threads = options.threads.map_or(0, NonZeroUsize::get);
+    let cannot = |why: &str| {
+        CliError::failed(format!("the threads that compute cannot be started: {why}"))
+            .with_help("use fewer with --threads, or raise the limits of memory and threads (ulimit -v, ulimit -u)")
+    };
+    // a thread that begins without memory ends the program before it can say why
+    let mut room: Vec<u8> = Vec::new();
+    if room.try_reserve_exact(threads.saturating_mul(OF_THREAD)).is_err() {
+        return Err(cannot("the memory does not suffice"));
+    }
+    drop(std::hint::black_box(room));
     let pool = rayon::ThreadPoolBuilder::new().num_threads(threads);
     // a pool that is already there stays: results do not depend on the number of threads
     if let Err(error) = pool.build_global()
         && let Some(source) = std::error::Error::source(&error)
     {
-        return Err(CliError::failed(format!("the threads that compute cannot be started: {source}"))
-            .with_help("use fewer with --threads, or raise the limits of memory and threads (ulimit -v, ulimit -u)"));
+        return Err(cannot(&source.to_string()));
     }
     let outcome = match &arguments.command {
         Command::Completions { shell } => return shell::completions(*shell, to),
