@@ -1,9 +1,9 @@
 //! Contacts of balls and races at rest, against what Hertz theory and bearing steel allow: refusals and doubts.
 
-use super::plausible::STATIC_RATING;
 use super::ring::metres;
 use crate::app::error::ComputeError;
 use crate::bearing::hertz::{ContactPatch, HertzStiffness};
+use crate::bearing::life::STATIC_PRESSURE;
 use crate::bearing::spatial::SpatialBearing;
 use crate::bearing::{BearingGeometry, Race, RaceContacts};
 use crate::numerics::Brief;
@@ -110,11 +110,11 @@ impl Contact {
                 100.0 * patch.longer / ball_radius
             ));
         }
-        if patch.peak_pressure > STATIC_RATING {
+        if patch.peak_pressure > STATIC_PRESSURE {
             found.push(format!(
                 "the pressure at the {race} race is {:.0} MPa under {newtons} N at rest, above the {:.0} MPa of the static load rating (ISO 76): the races keep dents, which the elastic contact leaves out; check the load and the bearing's size",
                 1e-6 * patch.peak_pressure,
-                1e-6 * STATIC_RATING
+                1e-6 * STATIC_PRESSURE
             ));
         }
         found

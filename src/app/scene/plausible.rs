@@ -6,6 +6,7 @@
 use super::ring::metres;
 use crate::app::case::{self, Case, short};
 use crate::bearing::RaceContacts;
+use crate::bearing::life::STATIC_PRESSURE;
 use crate::fe::element::continuum::measure;
 use crate::fe::mesh::BoundingBox;
 use crate::fe::model::HousingModel;
@@ -57,10 +58,6 @@ const THICK: f64 = 5.0;
 /// Highest speed of ball bearings, mean diameter (mm) times revolutions a minute: those of aircraft engines reach 3e6 (E. V. Zaretsky,
 /// *Tribology for Aerospace Applications*, 1997).
 const SPEED: f64 = 4e6;
-
-/// Largest pressure at the basic static load rating of a ball bearing, Pa: there a ball and its race keep dents of a
-/// ten-thousandth of the ball's diameter (ISO 76:2006, 3.2).
-pub(super) const STATIC_RATING: f64 = 4.2e9;
 
 /// Largest ball's share of a radial load, over that of all balls alike (R. Stribeck 1907; Harris, *Rolling Bearing Analysis*, 4th
 /// edition, chapter 7).
@@ -280,13 +277,13 @@ pub(super) fn contacts(case: &Case, setup: &BearingSetup, hertz: &RaceContacts) 
     let load: f64 = later.sum();
     let force = STRIBECK * load / f64::from(setup.geometry.balls());
     let pressure = hertz.inner.patch(force).peak_pressure;
-    if by_hertz == setup.stiffness && pressure > STATIC_RATING {
+    if by_hertz == setup.stiffness && pressure > STATIC_PRESSURE {
         found.push(format!(
             "shaft.loads reaches {} N, under which the most loaded ball bears about {} N with a pressure of {:.0} MPa at the inner race, above the {:.0} MPa of the static load rating (ISO 76): check that the loads are in N",
             short(load),
             significant(force, 3),
             1e-6 * pressure,
-            1e-6 * STATIC_RATING
+            1e-6 * STATIC_PRESSURE
         ));
     }
     found

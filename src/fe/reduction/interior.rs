@@ -125,8 +125,8 @@ impl Interior {
         self.product(x, 1, &|x| self.problem.mass_times(x))
     }
 
-    /// `A X` by that of `P^T A P`, which alone is kept: with `x = E c + P y_h`, c its means, `A E c` is known, and `A P y_h` is what
-    /// `P^T A P y_h` is less `G^T` times its rows d. Without E the followers would move by c times the number of nodes, and of a rigid
+    /// `A X` by that of `P^T A P`, which alone is kept: `x = E c + P y_h`, c its means. `A E c` is known. `A P y_h` is
+    /// `P^T A P y_h` less `G^T` times its rows d. Without E the followers would move by c times the number of nodes. Of a rigid
     /// motion, which costs nothing, the round-off of that would be left.
     fn product(&self, x: &DenseMatrix, which: usize, inside: &dyn Fn(&DenseMatrix) -> DenseMatrix) -> DenseMatrix {
         let Some(means) = &self.held else {
