@@ -5,6 +5,7 @@ use super::full::FullDamping;
 use super::reduced::{FrfHousing, TransferPath};
 use crate::app::case::{Case, Purpose};
 use crate::app::commands::parts::{self, HousingSize, signed_report};
+use crate::app::commands::result::Computed;
 use crate::app::error::ComputeError;
 use crate::fe::reduction::ResponseEstimate;
 use crate::fe::reduction::frf::FrfQuantity;
@@ -15,6 +16,12 @@ use faer::c64;
 
 /// Modes listed of those that carry a path.
 const LISTED: usize = 8;
+
+impl Computed for FrfResult {
+    fn report(&self, case: &Case, command: &str) -> Result<Report, ComputeError> {
+        frf_report(case, self, command)
+    }
+}
 
 /// Composes the report; `command` is the line that made it.
 ///

@@ -12,6 +12,7 @@ use crate::app::commands::analyze::table::{counts, verdicts};
 use crate::app::commands::analyze::{AnalysisRow, SHOWN_WINDOWS};
 use crate::app::commands::parts;
 use crate::app::commands::parts::ExpectedMode;
+use crate::app::commands::result::Computed;
 use crate::app::error::ComputeError;
 use crate::report::{
     Axis, Curve, Fact, Plot, Report, SIGNAL_POINTS, Section, Table, Thinner, Verdict, given, significant,
@@ -20,6 +21,12 @@ use crate::system::Column;
 
 /// Unloaded modes listed beside the loaded ones.
 const LISTED_MODES: usize = 20;
+
+impl<R: Recording> Computed for RunResult<R> {
+    fn report(&self, case: &Case, command: &str) -> Result<Report, ComputeError> {
+        run_report(case, self, command)
+    }
+}
 
 /// Composes the report; `command` is the line that made it.
 ///
