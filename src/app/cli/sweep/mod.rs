@@ -265,7 +265,7 @@ fn write_scripts(plan: &Plan, folder: &OutputFolder, tasks: usize, options: &Opt
     let absolute = |path: &Path| std::path::absolute(path).map_err(ComputeError::io(path));
     let program = points::program()?;
     let threads = options.threads.map_or(1, std::num::NonZeroUsize::get);
-    let scripts = slurm_scripts(&program, &absolute(&folder.path)?, tasks, threads);
+    let scripts = slurm_scripts(&program.call, &absolute(&folder.path)?, tasks, threads);
     folder.make_below(Path::new(POINTS))?;
     let write = |name: &str, text: &str| folder.write(&format!("{POINTS}/{name}"), text.as_bytes());
     let written = vec![
