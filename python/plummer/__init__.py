@@ -27,9 +27,10 @@ from ._analysis import Analysis, analyze
 from ._case import Case
 from ._condense import Coordinate, Superelement
 from ._frf import Frf, TransferPath
+from ._mesh import Mesh
 from ._modes import Modes
 from ._result import Result
-from ._run import Run, Signal
+from ._run import Run, Signal, Signals
 
 __all__ = [
     "Analysis",
@@ -42,14 +43,20 @@ __all__ = [
     "Frf",
     "InputError",
     "Interrupted",
+    "Mesh",
     "MeshError",
     "Modes",
     "Result",
     "Run",
     "Signal",
+    "Signals",
     "Superelement",
     "TransferPath",
     "analyze",
     "set_threads",
     "threads",
 ]
+
+for _name in __all__:
+    # what messages and documents call them
+    globals()[_name].__module__ = __name__

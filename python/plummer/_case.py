@@ -9,25 +9,29 @@ from typing import Any, Union
 
 from . import _plummer
 from ._condense import Superelement
+from ._errors import CaseError, Interrupted
 from ._frf import Frf
+from ._mesh import named
 from ._modes import Modes
 from ._progress import Progress, Stages
-from ._run import Run
+from ._run import Run, Signals
 
 Settings = Union[Mapping[str, Any], "list[str]", "tuple[str, ...]"]
 
 
-def _arguments(settings: Settings) -> list[str]:
+def _arguments(settings: Settings) -> tuple[list[str], list[tuple[str, _plummer.Mesh]]]:
+    meshes: dict[str, _plummer.Mesh] = {}
     if isinstance(settings, Mapping):
-        return [f"{key}={_plummer.toml_value(value)}" for key, value in settings.items()]
-    return list(settings)
+        values = {key: named(value, meshes) for key, value in settings.items()}
+        return [f"{key}={_plummer.toml_value(value)}" for key, value in values.items()], list(meshes.items())
+    return list(settings), []
 
 
 class Case:
     """A case: what a case file of ``plummer`` says, checked.
 
     Args:
-        table: the tables and keys of a case file as nested dicts.
+        table: the tables and keys of a case file as nested dicts; where it names a mesh, a :class:`Mesh` may stand.
         folder: where the files are that it names.
 
     Raises:
@@ -36,7 +40,7 @@ class Case:
     >>> import plummer
     >>> case = plummer.Case.load("examples/tadina2011/outer-dent.toml")
     >>> case["bearing.defects.0.depth"]
-    1.76e-05
+    1.5e-05
     >>> case["bearing.defects.0.depth"] = 2e-5
     >>> case["bearing.defects.0.depth"]
     2e-05
@@ -45,7 +49,8 @@ class Case:
     _case: _plummer.Case
 
     def __init__(self, table: Mapping[str, Any], folder: str | os.PathLike[str] = ".") -> None:
-        self._case = _plummer.Case.of_dict(table, os.path.join(os.fspath(folder), "case"))
+        meshes: dict[str, _plummer.Mesh] = {}
+        self._case = _plummer.Case.of_dict(named(table, meshes), os.path.join(os.fspath(folder), "case"), list(meshes.items()))
 
     @classmethod
     def load(cls, path: str | os.PathLike[str], set: Settings = ()) -> Case:
@@ -59,19 +64,19 @@ class Case:
             CaseError: a file that cannot be read, or is not valid.
         """
         self = cls.__new__(cls)
-        self._case = _plummer.Case.load(os.fspath(path), _arguments(set))
+        self._case = _plummer.Case.load(os.fspath(path), *_arguments(set))
         return self
 
     def update(self, settings: Settings) -> None:
         """Sets several keys at once; the case is checked after the last.
 
-        >>> case = Case.load("examples/modal/ring.toml")
-        >>> case.update({"modes.count": 4, "modes.convergence": {"meshes": []}})
-        Traceback (most recent call last):
-        ...
-        plummer._errors.CaseError: ...
+        >>> import plummer
+        >>> case = plummer.Case.load("examples/tadina2011/outer-dent.toml")
+        >>> case.update({"transient.end": 0.2, "analysis.envelope": [{"from": 0.05, "to": 0.2}]})
+        >>> case["transient.end"]
+        0.2
         """
-        self._case = self._case.with_arguments(_arguments(settings))
+        self._case = self._case.with_arguments(*_arguments(settings))
 
     def copy(self) -> Case:
         """A case of its own with the same values."""
@@ -83,13 +88,10 @@ class Case:
         self.update({key: value})
 
     def __getitem__(self, key: str) -> Any:
-        found: Any = self._case.values()
-        for step in key.replace("[", ".").replace("]", "").split("."):
-            try:
-                found = found[int(step)] if isinstance(found, list) else found[step]
-            except (KeyError, IndexError, TypeError, ValueError):
-                raise KeyError(key) from None
-        return found
+        try:
+            return self._case.value(key)
+        except CaseError as error:
+            raise KeyError(str(error)) from None
 
     def __contains__(self, key: object) -> bool:
         try:
@@ -133,7 +135,8 @@ class Case:
             InputError: a case or mesh of which no modes can be computed.
             ComputationError: a solver that does not find them.
 
-        >>> modes = Case.load("examples/modal/ring.toml").modes()
+        >>> import plummer
+        >>> modes = plummer.Case.load("examples/modal/ring.toml").modes()
         >>> modes.shapes.shape  # modes, nodes, x y z
         (12, 792, 3)
         """
@@ -146,7 +149,8 @@ class Case:
         Args:
             compare_full: computes the full model's frequencies beside.
 
-        >>> element = Case.load("examples/housings/ring.toml").condense()
+        >>> import plummer
+        >>> element = plummer.Case.load("examples/housings/ring.toml").condense()
         >>> element.stiffness.shape == element.mass.shape
         True
         """
@@ -156,7 +160,8 @@ class Case:
     def frf(self, *, progress: Progress = None) -> Frf:
         """Transfer paths from forces to sensors, as by ``plummer frf``.
 
-        >>> frf = Case.load("examples/transfer/pedestal.toml").frf()
+        >>> import plummer
+        >>> frf = plummer.Case.load("examples/transfer/pedestal.toml").frf()
         >>> frf.receptance.shape == (len(frf.paths), len(frf.frequencies_hz))
         True
         """
@@ -166,14 +171,18 @@ class Case:
     def run(self, *, progress: Progress = None) -> Run:
         """The simulation in time, as by ``plummer run``, with its signals in memory.
 
-        Ctrl-C ends it.
-
         Raises:
-            Interrupted: by Ctrl-C.
+            Interrupted: by Ctrl-C; its ``signals`` are those until then.
 
-        >>> run = Case.load("examples/scenes/impact.toml").run()
+        >>> import plummer
+        >>> run = plummer.Case.load("examples/scenes/impact.toml").run()
         >>> run["P1"].unit
         'm/s^2'
         """
         with Stages(progress) as stages:
-            return Run(self._case.run(stages.told))
+            try:
+                return Run(self._case.run(stages.told))
+            except Interrupted as error:
+                if isinstance(error.signals, _plummer.Record):
+                    error.signals = Signals(error.signals)
+                raise

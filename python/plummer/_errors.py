@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
-    from ._run import Run
+    from ._run import Signals
 
 
 class Error(Exception):
@@ -64,4 +64,4 @@ class Interrupted(Error, KeyboardInterrupt):
         signals: of a run what it had until then, else ``None``.
     """
 
-    signals: Run | None = None
+    signals: Signals | None = None

@@ -56,29 +56,19 @@ class Signal:
         return f"<plummer.Signal {self.name!r}: {len(self)} values in {self.unit}>"
 
 
-class Run(Result, Mapping[str, Signal]):
-    """A simulated run: a mapping of the sensors' names to their signals.
+class Signals(Mapping[str, Signal]):
+    """What a run recorded: a mapping of the sensors' names to their signals."""
 
-    >>> import plummer
-    >>> run = plummer.Case.load("examples/scenes/impact.toml").run()
-    >>> list(run)
-    ['P1']
-    >>> run["P1"].values.shape == run.time_s.shape
-    True
-    >>> run.inner_force_n.shape == (len(run.time_s), 7)  # instants, balls
-    True
-    """
-
-    def __init__(self, computed: _plummer.Run) -> None:
-        self._computed: _plummer.Run = computed
+    def __init__(self, record: _plummer.Record) -> None:
+        self._record = record
 
     @cached_property
     def _columns(self) -> dict[str, Any]:
-        return self._computed.columns()
+        return self._record.columns()
 
     @cached_property
     def _signals(self) -> dict[str, Signal]:
-        sensors = self._computed.sensors().items()
+        sensors = self._record.sensors().items()
         return {name: Signal(name, self.time_s, values, "m/s^2") for name, values in sensors}
 
     def __getitem__(self, sensor: str) -> Signal:
@@ -137,6 +127,45 @@ class Run(Result, Mapping[str, Signal]):
         outer = self._columns["outer_angle"]
         return None if outer is None else (outer, self._columns["inner_angle"])
 
+    def to_dataframe(self) -> pandas.DataFrame:
+        """The sensors' signals, m/s^2, over time."""
+        import pandas
+
+        columns = {name: signal.values for name, signal in self.items()}
+        return pandas.DataFrame(columns, index=pandas.Index(self.time_s, name="time_s"))
+
+    def plot(self, sensor: str | None = None, *, ax: Axes | None = None) -> Axes:
+        """Signals of all sensors, or of one, over time."""
+        import matplotlib.pyplot as plt
+
+        ax = ax or plt.figure().add_subplot()
+        for signal in [self[sensor]] if sensor else self.values():
+            signal.plot(ax=ax)
+        ax.set_ylabel("acceleration (m/s$^2$)")
+        ax.legend()
+        return ax
+
+    def __repr__(self) -> str:
+        return f"<plummer.{type(self).__name__}: {len(self.time_s)} instants of {', '.join(self)}>"
+
+
+class Run(Signals, Result):
+    """A simulated run: a mapping of the sensors' names to their signals.
+
+    >>> import plummer
+    >>> run = plummer.Case.load("examples/scenes/impact.toml").run()
+    >>> list(run)
+    ['P1']
+    >>> run["P1"].values.shape == run.time_s.shape
+    True
+    >>> run.inner_force_n.shape == (len(run.time_s), 7)  # instants, balls
+    True
+    """
+
+    def __init__(self, computed: _plummer.Run) -> None:
+        super().__init__(computed.record)
+        self._computed: _plummer.Run = computed
+
     @cached_property
     def _shaft(self) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
         speed, angle = self._computed.shaft(self.time_s)
@@ -162,29 +191,8 @@ class Run(Result, Mapping[str, Signal]):
         """Why the signals end early; ``None``: they do not."""
         return self._computed.blew_up
 
-    def to_dataframe(self) -> pandas.DataFrame:
-        """The sensors' signals, m/s^2, over time."""
-        import pandas
-
-        columns = {name: signal.values for name, signal in self.items()}
-        return pandas.DataFrame(columns, index=pandas.Index(self.time_s, name="time_s"))
-
     def verdicts_dataframe(self) -> pandas.DataFrame:
         """A row for each part in each analysed window."""
         import pandas
 
         return pandas.DataFrame(rows(self.verdicts))
-
-    def plot(self, sensor: str | None = None, *, ax: Axes | None = None) -> Axes:
-        """Signals of all sensors, or of one, over time."""
-        import matplotlib.pyplot as plt
-
-        ax = ax or plt.figure().add_subplot()
-        for signal in [self[sensor]] if sensor else self.values():
-            signal.plot(ax=ax)
-        ax.set_ylabel("acceleration (m/s$^2$)")
-        ax.legend()
-        return ax
-
-    def __repr__(self) -> str:
-        return f"<plummer.Run: {len(self.time_s)} instants of {', '.join(self)}>"

@@ -10,11 +10,7 @@ pub(crate) fn vector<T: Element>(py: Python<'_>, values: Vec<T>) -> Bound<'_, Py
 }
 
 /// A table, row by row.
-pub(crate) fn table<T: Element>(
-    py: Python<'_>,
-    values: Vec<T>,
-    shape: [usize; 2],
-) -> PyResult<Bound<'_, PyArray2<T>>> {
+pub(crate) fn table<T: Element>(py: Python<'_>, values: Vec<T>, shape: [usize; 2]) -> PyResult<Bound<'_, PyArray2<T>>> {
     vector(py, values).reshape(shape)
 }
 

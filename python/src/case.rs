@@ -1,31 +1,47 @@
 //! A case: read from a file or a dict, changed key by key, computed.
 
 use crate::condense::Superelement;
+use crate::errors;
 use crate::frf::Frf;
+use crate::mesh::Mesh;
 use crate::modes::Modes;
 use crate::run::Run;
-use crate::values::{dict, to_table, to_toml};
+use crate::values::{dict, to_python, to_table, to_toml};
 use crate::work::{Told, compute};
-use crate::errors;
-use plummer::app::case::{Purpose, Source};
-use plummer::prelude::{
-    Case as Library, Comparison, ComputeError, compute_condense, compute_frf, compute_modes, compute_run,
-};
+use plummer::app::case::{CaseError, Purpose, Source};
+use plummer::prelude::{Case as Library, Comparison, ComputeError, compute_condense, compute_frf, compute_modes};
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyMapping};
 use std::path::PathBuf;
 use std::sync::Arc;
 
+/// Meshes in memory, by the names that the case has for them.
+type Meshes<'py> = Vec<(String, PyRef<'py, Mesh>)>;
+
 /// A case, checked.
 #[pyclass(frozen, module = "plummer._plummer")]
 pub(crate) struct Case {
     case: Arc<Library>,
+    contents: Vec<(String, Arc<[u8]>)>,
 }
 
 impl Case {
-    fn of(py: Python<'_>, read: Result<Library, plummer::app::case::CaseError>) -> PyResult<Self> {
-        let case = Arc::new(read.map_err(|error| errors::of(py, error))?);
-        Ok(Self { case })
+    /// A case that was read, with those meshes that are at hand already, and more.
+    fn of(
+        py: Python<'_>,
+        read: Result<Library, CaseError>,
+        had: &[(String, Arc<[u8]>)],
+        more: &Meshes<'_>,
+    ) -> PyResult<Self> {
+        let more = more.iter().map(|(name, mesh)| (name.clone(), Arc::clone(&mesh.content)));
+        let contents: Vec<_> = had.iter().cloned().chain(more).collect();
+        let case = read.map_err(|error| errors::of(py, error))?;
+        let case = contents.iter().fold(case, |case, (name, content)| case.with_content(name, Arc::clone(content)));
+        Ok(Self { case: Arc::new(case), contents })
+    }
+
+    fn ready_for(&self, py: Python<'_>, purpose: Purpose) -> PyResult<()> {
+        self.case.ready_for(purpose).map_err(|error| errors::of(py, error))
     }
 
     /// What a command computes of the case that has what it needs.
@@ -36,7 +52,7 @@ impl Case {
         progress: Option<&Bound<'_, PyAny>>,
         work: impl FnOnce(&Library, &Told) -> Result<T, ComputeError> + Send + 'static,
     ) -> PyResult<(Arc<Library>, T)> {
-        self.case.ready_for(purpose).map_err(|error| errors::of(py, error))?;
+        self.ready_for(py, purpose)?;
         let case = Arc::clone(&self.case);
         let result = compute(py, progress, move |told| work(&case, told))?;
         Ok((Arc::clone(&self.case), result))
@@ -47,22 +63,28 @@ impl Case {
 impl Case {
     /// Reads a case file; `set`: `KEY=VALUE`, as after --set.
     #[staticmethod]
-    fn load(py: Python<'_>, path: PathBuf, set: Vec<String>) -> PyResult<Self> {
-        Self::of(py, Library::load(path, &set))
+    fn load(py: Python<'_>, path: PathBuf, set: Vec<String>, meshes: Meshes<'_>) -> PyResult<Self> {
+        Self::of(py, Library::load(path, &set), &[], &meshes)
     }
 
     /// A case of nested dicts; files that it names are looked for beside `path`.
     #[staticmethod]
-    fn of_dict(py: Python<'_>, table: &Bound<'_, PyMapping>, path: PathBuf) -> PyResult<Self> {
+    fn of_dict(py: Python<'_>, table: &Bound<'_, PyMapping>, path: PathBuf, meshes: Meshes<'_>) -> PyResult<Self> {
         let text = toml::to_string(&to_table(table)?).map_err(|error| errors::input(py, error, None))?;
-        Self::of(py, Library::from_source(Source { path, text, set: Vec::new() }))
+        Self::of(py, Library::from_source(Source { path, text, set: Vec::new() }), &[], &meshes)
     }
 
     /// The same case with further arguments `KEY=VALUE`.
-    fn with_arguments(&self, py: Python<'_>, set: Vec<String>) -> PyResult<Self> {
+    fn with_arguments(&self, py: Python<'_>, set: Vec<String>, meshes: Meshes<'_>) -> PyResult<Self> {
         let mut source = self.case.source.clone();
         source.set.extend(set);
-        Self::of(py, Library::from_source(source))
+        Self::of(py, Library::from_source(source), &self.contents, &meshes)
+    }
+
+    /// The value of a key, defaults filled in.
+    fn value<'py>(&self, py: Python<'py>, key: &str) -> PyResult<Bound<'py, PyAny>> {
+        let value = self.case.value(key).map_err(|error| errors::of(py, error))?;
+        to_python(py, &value)
     }
 
     /// The case with all defaults, as nested dicts.
@@ -117,8 +139,8 @@ impl Case {
     }
 
     fn run(&self, py: Python<'_>, progress: Option<&Bound<'_, PyAny>>) -> PyResult<Run> {
-        let (case, result) = self.compute(py, Purpose::Run, progress, |case, told| compute_run(case, told))?;
-        Ok(Run::new(py, case, result))
+        self.ready_for(py, Purpose::Run)?;
+        Run::compute(py, &self.case, progress)
     }
 }
 

@@ -53,9 +53,8 @@ impl Superelement {
     /// Body, node, direction, unit, position [3] (m) and axis [3] of each interface coordinate.
     fn interface<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyList>> {
         let rows = self.record.interface.iter();
-        let rows = rows.map(|row| {
-            (row.body.name(), row.node, row.direction.name(), row.direction.unit(), row.position, row.axis)
-        });
+        let rows = rows
+            .map(|row| (row.body.name(), row.node, row.direction.name(), row.direction.unit(), row.position, row.axis));
         PyList::new(py, rows.collect::<Vec<_>>())
     }
 

@@ -40,6 +40,11 @@ pub(crate) fn failed(py: Python<'_>, what: impl Display) -> PyErr {
     exception(py, "ComputationError", what.to_string(), None)
 }
 
+/// Whether Ctrl-C ended it.
+pub(crate) fn is_interrupted(py: Python<'_>, error: &PyErr) -> bool {
+    error.get_type(py).name().is_ok_and(|name| name == "Interrupted")
+}
+
 /// A computation that Ctrl-C ended.
 pub(crate) fn interrupted(py: Python<'_>, what: &str) -> PyErr {
     exception(py, "Interrupted", what.to_owned(), None)

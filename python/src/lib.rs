@@ -7,8 +7,11 @@ mod case;
 mod condense;
 mod errors;
 mod frf;
+mod mesh;
 mod modes;
 mod page;
+mod program;
+mod record;
 mod run;
 mod threads;
 mod values;
@@ -26,7 +29,13 @@ mod _plummer {
     #[pymodule_export]
     use crate::frf::Frf;
     #[pymodule_export]
+    use crate::mesh::Mesh;
+    #[pymodule_export]
     use crate::modes::Modes;
+    #[pymodule_export]
+    use crate::program::main;
+    #[pymodule_export]
+    use crate::record::Record;
     #[pymodule_export]
     use crate::run::Run;
     #[pymodule_export]

@@ -31,9 +31,10 @@ pub(crate) fn pool(py: Python<'_>) -> PyResult<Arc<ThreadPool>> {
         None => {}
     }
     let made = ThreadPoolBuilder::new().num_threads(threads.asked).stack_size(STACK).build();
-    let pool = Arc::new(made.map_err(|error| {
-        errors::failed(py, format_args!("the threads that compute cannot be started: {error}"))
-    })?);
+    let pool =
+        Arc::new(made.map_err(|error| {
+            errors::failed(py, format_args!("the threads that compute cannot be started: {error}"))
+        })?);
     threads.pool = Some((process, Arc::clone(&pool)));
     Ok(pool)
 }

@@ -20,6 +20,8 @@ const GRACE: Duration = Duration::from_secs(1);
 #[derive(Default)]
 pub(crate) struct Told {
     stop: AtomicBool,
+    /// Whether the computation looks at the request by itself now.
+    stops_itself: AtomicBool,
     at: Mutex<At>,
 }
 
@@ -39,8 +41,16 @@ impl Told {
         self.at.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
+    pub(crate) fn is_to_stop(&self) -> bool {
+        self.stop.load(Ordering::Relaxed)
+    }
+
+    pub(crate) fn stops_itself(&self, itself: bool) {
+        self.stops_itself.store(itself, Ordering::Relaxed);
+    }
+
     fn stop_here(&self) {
-        if self.stop.load(Ordering::Relaxed) {
+        if self.is_to_stop() && !self.stops_itself.load(Ordering::Relaxed) {
             resume_unwind(Box::new(Stopped));
         }
     }
