@@ -63,6 +63,13 @@ def test_figures_of_matplotlib() -> None:
     assert line.get_ydata().tolist() == run["P1"].values.tolist()
 
 
+def test_the_script_of_the_documents_runs() -> None:
+    done = subprocess.run([sys.executable, "docs/python/import_plummer.py"], capture_output=True, text=True)
+    assert done.returncode == 0, done.stderr
+    first, second, third = done.stdout.splitlines()
+    assert first.startswith("12 modes") and "outer race" in second and "indicated: outer race" in third
+
+
 def test_types_are_strict() -> None:
     pytest.importorskip("mypy")
     words = [sys.executable, "-m", "mypy", "--strict", "--config-file", str(ROOT / "pyproject.toml")]
