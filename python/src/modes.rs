@@ -1,11 +1,13 @@
 //! Modes, handed over.
 
-use crate::{arrays, page};
+use crate::{arrays, errors, page};
 use numpy::{PyArray1, PyArray2, PyArray3};
 use plummer::app::commands::modes::ModesResult;
+use plummer::formats::write_modes_npz;
 use plummer::prelude::Case;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
+use std::path::PathBuf;
 use std::sync::Arc;
 
 /// Frequencies and shapes, with the points that move.
@@ -37,6 +39,12 @@ impl Modes {
             arrays::points(py, points)?,
             found.node_tags.map(|tags| arrays::vector(py, tags)),
         ))
+    }
+
+    /// Writes `modes.npz` into a folder, as the command does.
+    fn write(&self, py: Python<'_>, folder: PathBuf) -> PyResult<()> {
+        let written = write_modes_npz(&folder.join("modes.npz"), &self.result.mode_shapes());
+        written.map_err(|error| errors::of(py, error))
     }
 
     fn summary<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
