@@ -3,9 +3,7 @@
 use super::report::ReportFiles;
 use super::results::{Job, warnings};
 use super::{CliError, Outcome, typed};
-use crate::app::commands::condense::{
-    Comparison, CondenseResult, compute_condense, condense_report, imported_report,
-};
+use crate::app::commands::condense::{Comparison, CondenseResult, compute_condense, condense_report, imported_report};
 use crate::app::error::ComputeError;
 use crate::app::scene::{Boundary, ImportedHousing};
 use crate::fe::reduction::{Bound, Check};
