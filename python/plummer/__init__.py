@@ -4,7 +4,7 @@
 >>> case = plummer.Case.load("examples/modal/ring.toml")
 >>> modes = case.modes()
 >>> print(f"{modes.frequencies_hz[3]:.0f} Hz")
-31725 Hz
+31720 Hz
 
 Everything is in SI units unless a name says otherwise (``_hz``, ``_deg``). Results are those of the command ``plummer``, bit for bit.
 """

@@ -7,6 +7,8 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from . import _plummer
+from ._errors import InputError
+from ._mesh import KINDS
 from ._result import Result
 
 if TYPE_CHECKING:
@@ -112,6 +114,27 @@ class Modes(Result):
             columns.update({f"effective_mass_{name}": masses[:, place] for place, name in enumerate(names)})
         index = pandas.RangeIndex(1, self.count + 1, name="mode")
         return pandas.DataFrame(columns, index=index)
+
+    def to_meshio(self) -> Any:
+        """The housing's elements with a point field ``"mode 1"``, ... for each mode, as a mesh of meshio.
+
+        meshio writes it for ParaView and others: ``modes.to_meshio().write("modes.vtu")``. Nodes of rings are left out.
+
+        Raises:
+            InputError: a case without a housing's mesh.
+        """
+        import meshio
+
+        cells = self._computed.cells()
+        if not cells:
+            raise InputError("to_meshio: the case has no mesh of a housing")
+        names = {kind: name for name, kind in KINDS.items()}
+        count = 1 + max(int(nodes.max()) for _, nodes in cells)
+        count = max(count, len(self.points_m) if self.node_tags is not None else count)
+        fields = {f"mode {number}": shape[:count] for number, shape in enumerate(self.shapes, 1)}
+        # meshio has no Pyramid14 of its own order: VTK's has no node on the base
+        blocks = [("pyramid13" if names[kind] == "pyramid14" else names[kind], nodes) for kind, nodes in cells]
+        return meshio.Mesh(self.points_m[:count], blocks, point_data=fields)
 
     def plot(self, mode: int | None = None, *, scale: float = 0.1, ax: Axes | None = None) -> Axes:
         """Frequencies by number; or the shape of a mode, counted from 0, ``scale`` times the structure's size at most."""

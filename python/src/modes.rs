@@ -3,6 +3,8 @@
 use crate::{arrays, errors, page};
 use numpy::{PyArray1, PyArray2, PyArray3};
 use plummer::app::commands::modes::ModesResult;
+use plummer::fe::mesh::ElementBlock;
+use plummer::formats::vtu::node_order;
 use plummer::formats::write_modes_npz;
 use plummer::prelude::Case;
 use pyo3::prelude::*;
@@ -45,6 +47,19 @@ impl Modes {
     fn write(&self, py: Python<'_>, folder: PathBuf) -> PyResult<()> {
         let written = write_modes_npz(&folder.join("modes.npz"), &self.result.mode_shapes());
         written.map_err(|error| errors::of(py, error))
+    }
+
+    /// Elements of the housing's bodies: gmsh's type, and their nodes [elements, nodes of each], places among the points, in VTK's order.
+    fn cells<'py>(&self, py: Python<'py>) -> PyResult<Vec<(i32, Bound<'py, PyArray2<usize>>)>> {
+        let Some((mesh, _)) = &self.result.housing else { return Ok(Vec::new()) };
+        let bodies = mesh.blocks.iter().map(|block| block.kind.dimension()).max();
+        let blocks = mesh.blocks.iter().filter(|block| Some(block.kind.dimension()) == bodies);
+        let in_vtk_order = |block: &ElementBlock| {
+            let order = node_order(block.kind);
+            let nodes = block.elements().flat_map(|nodes| order.iter().map(|&own| nodes[own]));
+            Ok((block.kind.gmsh_type(), arrays::table(py, nodes.collect(), [block.len(), order.len()])?))
+        };
+        blocks.map(in_vtk_order).collect()
     }
 
     fn summary<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {

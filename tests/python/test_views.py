@@ -66,7 +66,7 @@ def test_the_script_of_the_documents_runs() -> None:
     done = subprocess.run([sys.executable, "docs/python/import_plummer.py"], capture_output=True, text=True)
     assert done.returncode == 0, done.stderr
     first, second, third = done.stdout.splitlines()
-    assert first.startswith("12 modes") and "outer race" in second and "indicated: outer race" in third
+    assert first.startswith("20 modes, the first elastic one at 3767 Hz") and "outer race" in second and third.endswith("indicated: outer race>")
 
 
 def test_types_are_strict() -> None:
