@@ -57,8 +57,8 @@ class FileError(Error, OSError):
     """A file that the system does not let read or write."""
 
 
-class Interrupted(Error, KeyboardInterrupt):
-    """Ctrl-C ended a computation.
+class Interrupted(KeyboardInterrupt):
+    """Ctrl-C ended a computation. As any interrupt it is no ``Exception``, which a loop over cases might pass over.
 
     Attributes:
         signals: of a run what it had until then, else ``None``.

@@ -47,5 +47,6 @@ pub(crate) fn is_interrupted(py: Python<'_>, error: &PyErr) -> bool {
 
 /// A computation that Ctrl-C ended.
 pub(crate) fn interrupted(py: Python<'_>, what: &str) -> PyErr {
-    exception(py, "Interrupted", what.to_owned(), None)
+    let made = py.import("plummer._errors").and_then(|module| module.getattr("Interrupted")?.call1((what,)));
+    made.map_or_else(|error| error, PyErr::from_value)
 }

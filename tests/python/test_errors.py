@@ -24,7 +24,7 @@ def test_a_case_that_is_wrong_says_where_and_what_helps() -> None:
 def test_kinds_are_those_of_python_too() -> None:
     assert issubclass(plummer.CaseError, ValueError) and issubclass(plummer.MeshError, plummer.InputError)
     assert issubclass(plummer.ComputationError, RuntimeError) and issubclass(plummer.FileError, OSError)
-    assert issubclass(plummer.Interrupted, KeyboardInterrupt)
+    assert issubclass(plummer.Interrupted, KeyboardInterrupt) and not issubclass(plummer.Interrupted, Exception)
     error = pickle.loads(pickle.dumps(plummer.CaseError("wrong", "right")))
     assert (error.what, error.help) == ("wrong", "right")
 
