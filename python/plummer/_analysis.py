@@ -26,7 +26,7 @@ class FaultVerdict(NamedTuple):
 
     #: "outer race", "inner race", "ball" or "cage"
     part: str
-    #: "fault indicated", "not seen" or "not enough evidence"
+    #: "named": a fault is indicated; "not seen" or "not enough evidence"
     conclusion: str
     #: probability that a sound bearing's signal has such lines; ``None`` where it was not judged
     false_alarm: float | None
@@ -61,7 +61,7 @@ class WindowVerdict(NamedTuple):
     @property
     def indicated(self) -> list[str]:
         """The parts that are indicated."""
-        return [fault.part for fault in self.faults if fault.conclusion == "fault indicated"]
+        return [fault.part for fault in self.faults if fault.conclusion == "named"]
 
 
 def verdicts(windows: list[dict[str, Any]]) -> list[WindowVerdict]:

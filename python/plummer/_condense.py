@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from functools import cached_property
+from pathlib import Path
 from typing import TYPE_CHECKING, NamedTuple
 
 from . import _plummer
@@ -120,6 +121,9 @@ class Superelement(Result):
         ax.semilogy(self.summary["frequencies_hz"], self.summary["estimated_relative_error"], "o")
         ax.set(xlabel="frequency (Hz)", ylabel="estimated relative error")
         return ax
+
+    def _write(self, folder: Path) -> None:
+        self._computed.write(folder)
 
     def __repr__(self) -> str:
         return f"<plummer.Superelement: {len(self.interface)} interface coordinates, {len(self.modal_hz)} vectors>"

@@ -41,7 +41,7 @@ class CaseError(InputError):
     ... except plummer.CaseError as error:
     ...     print(error)
     --set modes.cuont=3: unknown key `modes.cuont`
-    help: did you mean `count`? keys here: count, up_to_hz, band_hz, linearise, ball_pass, expected, compare, convergence, variants
+    help: did you mean `count`? keys here: count, up_to_hz, band_hz, expected, linearise, variants, compare, convergence, ball_pass
     """
 
 

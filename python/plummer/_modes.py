@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from functools import cached_property
+from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from . import _plummer
@@ -155,6 +156,9 @@ class Modes(Result):
         space.set_aspect("equal")
         drawn: Axes = space
         return drawn
+
+    def _write(self, folder: Path) -> None:
+        self._computed.write(folder)
 
     def __repr__(self) -> str:
         return f"<plummer.Modes: {self.count} from {self.frequencies_hz[0]:.4g} to {self.frequencies_hz[-1]:.6g} Hz>"

@@ -51,12 +51,17 @@ class Result:
         return framed(self.html)
 
     def save(self, folder: str | os.PathLike[str]) -> Path:
-        """Writes the report and the summary into a folder, ``report.html`` and ``COMMAND.json``; gives the folder."""
+        """Writes into a folder, and gives it: ``report.html``, the summary as ``COMMAND.json``, and the arrays as the command names
+        them, ``modes.npz``, ``superelement.npz`` or ``signals.npz``."""
         path = Path(folder)
         path.mkdir(parents=True, exist_ok=True)
+        self._write(path)
         (path / "report.html").write_text(self.html, encoding="utf-8")
         (path / f"{self.summary['command']}.json").write_text(json.dumps(self.summary, indent=2) + "\n", encoding="utf-8")
         return path
+
+    def _write(self, folder: Path) -> None:
+        """Writes arrays."""
 
     def to_dataframe(self) -> pandas.DataFrame:
         """The result as a table of pandas."""

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 from functools import cached_property
+from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from . import _plummer
@@ -180,6 +181,14 @@ class Run(Signals, Result):
     def shaft_angle_rad(self) -> NDArray[np.float64]:
         """Angle of the shaft since t = 0, which goes on over the turns [instants], rad."""
         return self._shaft[1]
+
+    def _write(self, folder: Path) -> None:
+        import numpy as np
+
+        arrays: dict[str, Any] = {name: column for name, column in self._columns.items() if column is not None}
+        arrays.update({name: signal.values for name, signal in self.items()})
+        arrays.update(shaft_speed_hz=self.shaft_speed_hz, shaft_angle_rad=self.shaft_angle_rad)
+        np.savez(folder / "signals.npz", **arrays)
 
     @property
     def verdicts(self) -> list[WindowVerdict]:

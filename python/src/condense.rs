@@ -1,13 +1,14 @@
 //! A superelement, handed over.
 
-use crate::{arrays, page};
+use crate::{arrays, errors, page};
 use numpy::{PyArray1, PyArray2};
 use plummer::app::commands::condense::CondenseResult;
 use plummer::formats::SuperelementRecord;
 use plummer::numerics::linalg::DenseMatrix;
-use plummer::prelude::Case;
+use plummer::prelude::{Case, write_superelement_npz};
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyList};
+use std::path::PathBuf;
 use std::sync::Arc;
 
 /// A condensed housing.
@@ -65,6 +66,12 @@ impl Superelement {
             rows.set_item(&sensor.name, arrays::vector(py, sensor.row.clone()))?;
         }
         Ok(rows)
+    }
+
+    /// Writes `superelement.npz` into a folder, as the command does.
+    fn write(&self, py: Python<'_>, folder: PathBuf) -> PyResult<()> {
+        let written = write_superelement_npz(&folder.join("superelement.npz"), &self.record);
+        written.map_err(|error| errors::of(py, error))
     }
 
     fn summary<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {

@@ -1,13 +1,15 @@
 //! Modes, handed over.
 
-use crate::{arrays, page};
+use crate::{arrays, errors, page};
 use numpy::{PyArray1, PyArray2, PyArray3};
 use plummer::app::commands::modes::ModesResult;
 use plummer::fe::mesh::ElementBlock;
 use plummer::formats::vtu::node_order;
+use plummer::formats::write_modes_npz;
 use plummer::prelude::Case;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
+use std::path::PathBuf;
 use std::sync::Arc;
 
 /// Frequencies and shapes, with the points that move.
@@ -52,6 +54,12 @@ impl Modes {
             Ok((block.kind.gmsh_type(), arrays::table(py, nodes.collect(), [block.len(), order.len()])?))
         };
         blocks.map(in_vtk_order).collect()
+    }
+
+    /// Writes `modes.npz` into a folder, as the command does.
+    fn write(&self, py: Python<'_>, folder: PathBuf) -> PyResult<()> {
+        let written = write_modes_npz(&folder.join("modes.npz"), &self.result.mode_shapes());
+        written.map_err(|error| errors::of(py, error))
     }
 
     fn summary<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {

@@ -32,7 +32,7 @@ def test_what_is_set_is_what_the_command_sets() -> None:
     case["bearing.balls"] = np.int64(7)
     assert case.settings == [
         "transient.end=2.5",
-        "bearing.defects.0.depth=2e-5",
+        "bearing.defects.0.depth=0.00002",
         "analysis.envelope=[{ from = 0.1, to = 0.4 }]",
         "title='a \"quoted\" title'",
         "bearing.balls=7",

@@ -76,13 +76,25 @@ def test_all_shipped_cases_are_here() -> None:
     assert set(KEYS) <= set(jobs())
 
 
-@pytest.mark.parametrize(("command", "name"), jobs(), ids=" ".join)
+@pytest.mark.parametrize(("command", "name"), jobs(), ids=[" ".join(job) for job in jobs()])
 def test_python_and_program_say_the_same(command: str, name: str, program: Program) -> None:
     case, keys = f"examples/{name}.toml", KEYS.get((command, name), SHORT_RUN if command == "run" else [])
     said, folder = program(command, case, *keys)
     result = getattr(plummer.Case.load(case, set=keys), command)()
     same(result.summary, said, command)
     {"modes": arrays_of_modes, "condense": arrays_of_superelement, "run": arrays_of_run, "frf": responses}[command](result, folder, said)
+    saved = result.save(folder / "python")
+    for file in ("modes.npz", "superelement.npz", "signals.npz"):
+        assert (folder / file).exists() == (saved / file).exists()
+        if (folder / file).exists():
+            same_arrays(saved / file, folder / file)
+
+
+def same_arrays(python: Path, program: Path) -> None:
+    with np.load(python) as mine, np.load(program) as other:
+        assert set(mine.files) == set(other.files)
+        for name in other.files:
+            np.testing.assert_array_equal(mine[name], other[name], name)
 
 
 def arrays_of_modes(modes: plummer.Modes, folder: Path, said: dict[str, Any]) -> None:

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import doctest
 import importlib
-import os
 import pkgutil
 import subprocess
 import sys
@@ -40,7 +39,7 @@ def test_a_page_holds_the_report() -> None:
 def test_a_run_shows_its_signals_in_the_page(tmp_path: Path) -> None:
     run = plummer.Case.load("examples/scenes/impact.toml").run()
     assert "P1" in run.html and "Signals" in run.html
-    assert sorted(path.name for path in run.save(tmp_path / "out").iterdir()) == ["report.html", "run.json"]
+    assert sorted(path.name for path in run.save(tmp_path / "out").iterdir()) == ["report.html", "run.json", "signals.npz"]
 
 
 def test_tables_of_pandas() -> None:
@@ -63,13 +62,20 @@ def test_figures_of_matplotlib() -> None:
     assert line.get_ydata().tolist() == run["P1"].values.tolist()
 
 
+def test_the_script_of_the_documents_runs() -> None:
+    done = subprocess.run([sys.executable, "docs/python/import_plummer.py"], capture_output=True, text=True)
+    assert done.returncode == 0, done.stderr
+    first, second, third = done.stdout.splitlines()
+    assert first.startswith("12 modes") and "outer race" in second and "indicated: outer race" in third
+
+
 def test_types_are_strict() -> None:
     pytest.importorskip("mypy")
     words = [sys.executable, "-m", "mypy", "--strict", "--config-file", str(ROOT / "pyproject.toml")]
     own = subprocess.run([*words, str(ROOT / "python/plummer")], capture_output=True, text=True)
     assert own.returncode == 0, own.stdout
-    typed = str(ROOT / "tests/python/typed_script.py")
-    script = subprocess.run([*words, typed], capture_output=True, text=True, env={**os.environ, "MYPYPATH": str(ROOT / "python")})
+    # of the installed package, which says that it is typed
+    script = subprocess.run([*words, str(ROOT / "tests/python/typed_script.py")], capture_output=True, text=True)
     assert script.returncode == 0, script.stdout
-    wrong = subprocess.run([*words, "-c", 'import plummer\nplummer.Case.load(3)'], capture_output=True, text=True, env={**os.environ, "MYPYPATH": str(ROOT / "python")})
+    wrong = subprocess.run([*words, "-c", "import plummer; plummer.Case.load(3)"], capture_output=True, text=True)
     assert "arg-type" in wrong.stdout

@@ -1,10 +1,6 @@
 //! What the results of all commands have in common; what each says by itself is in its folder, as `summary()` of what it computed.
 
-use crate::app::case::Case;
-use crate::app::commands::parts::with_details;
-use crate::app::error::ComputeError;
 use crate::files::FileDigest;
-use crate::report::Report;
 use schemars::JsonSchema;
 use serde::Serialize;
 use std::collections::BTreeMap;
@@ -54,21 +50,4 @@ pub struct CaseResult<'a, T> {
     /// What the command found.
     #[serde(flatten)]
     pub result: T,
-}
-
-/// What a command computed. Serialised it is what the command's JSON file says behind its head.
-pub trait Computed: Serialize {
-    /// Composes the report; `command` is the line that made it.
-    ///
-    /// # Errors
-    /// [`ComputeError`] of what cannot be shown.
-    fn report(&self, case: &Case, command: &str) -> Result<Report, ComputeError>;
-
-    /// The report as one HTML page, with what the case says of its head.
-    ///
-    /// # Errors
-    /// As [`report`](Self::report), and of contents that do not fit together.
-    fn page(&self, case: &Case, command: &str) -> Result<String, ComputeError> {
-        Ok(with_details(self.report(case, command)?, case).to_html()?)
-    }
 }

@@ -5,8 +5,8 @@
 use super::compute::{CondenseResult, FullComparison, ReducedInterface};
 use super::summary::hz;
 use crate::app::case::{Case, Purpose};
+use crate::app::commands::computed::Computed;
 use crate::app::commands::parts::{self, HousingSize, signed_report};
-use crate::app::commands::result::Computed;
 use crate::app::error::ComputeError;
 use crate::app::scene::tie_price::{BeamAndSolid, BorePrice, TiePrice};
 use crate::app::scene::{Boundary, Centres, ImportedHousing};

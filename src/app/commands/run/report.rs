@@ -10,9 +10,9 @@ use crate::app::case::{Case, Purpose};
 use crate::app::commands::analyze::report::{capital, verdict_headlines, window_section};
 use crate::app::commands::analyze::table::{counts, verdicts};
 use crate::app::commands::analyze::{AnalysisRow, SHOWN_WINDOWS};
+use crate::app::commands::computed::Computed;
 use crate::app::commands::parts;
 use crate::app::commands::parts::ExpectedMode;
-use crate::app::commands::result::Computed;
 use crate::app::error::ComputeError;
 use crate::report::{
     Axis, Curve, Fact, Plot, Report, SIGNAL_POINTS, Section, Table, Thinner, Verdict, given, significant,
