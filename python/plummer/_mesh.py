@@ -36,15 +36,6 @@ KINDS = {
     "pyramid13": 19,
     "pyramid14": 14,
 }
-#: Which node of VTK's order, which meshio has, stands where in gmsh's.
-GMSH_ORDER = {
-    "tetra10": [0, 1, 2, 3, 4, 5, 6, 7, 9, 8],
-    "hexahedron20": [0, 1, 2, 3, 4, 5, 6, 7, 8, 11, 16, 9, 17, 10, 18, 19, 12, 15, 13, 14],
-    "hexahedron27": [0, 1, 2, 3, 4, 5, 6, 7, 8, 11, 16, 9, 17, 10, 18, 19, 12, 15, 13, 14, 24, 22, 20, 21, 23, 25, 26],
-    "wedge15": [0, 1, 2, 3, 4, 5, 6, 8, 12, 7, 13, 14, 9, 11, 10],
-    "pyramid13": [0, 1, 2, 3, 4, 5, 8, 9, 6, 10, 7, 11, 12],
-}
-
 #: A kind of elements: their nodes [elements, nodes of each], indices from 0.
 Cells = Mapping[str, "ArrayLike"]
 #: Elements of a group by index from 0, for each kind.
@@ -96,18 +87,29 @@ class Mesh:
         """
         import numpy as np
 
+        if order not in ("gmsh", "vtk"):
+            raise MeshError(f'order: found {order!r}, expected "gmsh" or "vtk"')
+        for name, of in (groups or {}).items():
+            for kind in of:
+                if kind not in cells:
+                    raise MeshError(f"groups: {name!r} has elements of kind {kind!r}, expected some of {', '.join(cells)}")
         given = []
         for kind, nodes in cells.items():
             if kind not in KINDS:
                 raise MeshError(f"cells: found {kind!r}, expected some of {', '.join(KINDS)}")
-            table = np.asarray(nodes, dtype=np.int64)
-            if table.ndim != 2:
-                raise MeshError(f"cells: {kind} has an array of shape {table.shape}, expected [elements, nodes of each]")
+            table = _whole(f"cells: {kind}", nodes)
+            count, of_vtk = _plummer.node_order(KINDS[kind])
+            if table.ndim != 2 or table.shape[1] != count:
+                raise MeshError(f"cells: {kind} has an array of shape {table.shape}, expected [elements, {count}]")
             if order == "vtk" and kind in ("wedge18", "pyramid14"):
                 raise MeshError(f'cells: found {kind}, of which programs differ in the order of nodes, expected it with order="gmsh"')
-            if order == "vtk" and kind in GMSH_ORDER:
-                table = table[:, GMSH_ORDER[kind]]
-            own = [(name, np.asarray(of[kind]).tolist()) for name, of in (groups or {}).items() if kind in of]
+            if order == "vtk":
+                table = table[:, np.argsort(of_vtk)]
+            own = [
+                (name, _members(f"groups: {name}, {kind}", of[kind], len(table)))
+                for name, of in (groups or {}).items()
+                if kind in of
+            ]
             given.append((KINDS[kind], np.ascontiguousarray(table).reshape(-1), own))
         return cls(_plummer.Mesh.of_cells(np.asarray(points, dtype=float), given))
 
@@ -196,6 +198,29 @@ class Mesh:
     def __repr__(self) -> str:
         kinds = ", ".join(f"{count} {kind}" for kind, count in self.kinds.items())
         return f"<plummer.Mesh: {len(self.points)} nodes, {kinds}; {', '.join(self.groups)}>"
+
+
+def _whole(what: str, given: ArrayLike) -> NDArray[np.int64]:
+    import numpy as np
+
+    array = np.asarray(given)
+    if array.size and array.dtype.kind not in "iu":
+        raise MeshError(f"{what} has numbers of type {array.dtype}, expected whole numbers")
+    return array.astype(np.int64)
+
+
+def _members(what: str, given: ArrayLike, count: int) -> list[int]:
+    import numpy as np
+
+    array = np.asarray(given)
+    if array.dtype == bool:
+        if array.shape != (count,):
+            raise MeshError(f"{what} is a mask of shape {array.shape}, expected ({count},)")
+        array = np.flatnonzero(array)
+    members = _whole(what, array).ravel()
+    if members.size and members.min() < 0:
+        raise MeshError(f"{what} has element {members.min()}, expected indices from 0")
+    return [int(member) for member in members]
 
 
 def named(value: Any, found: dict[str, _plummer.Mesh]) -> Any:

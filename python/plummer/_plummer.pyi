@@ -23,6 +23,9 @@ def threads() -> int:
 
 def main(code: str, call: list[str], arguments: list[str]) -> int: ...
 def toml_value(value: Any) -> str: ...
+def node_order(gmsh_type: int) -> tuple[int, list[int]]:
+    """Number of nodes of an element; for each place of a node in VTK's order its place in gmsh's."""
+
 def analyze(signal: Floats, asked: Mapping[str, Any], progress: Told) -> Analysis: ...
 
 class Case:

@@ -113,7 +113,7 @@ impl Case {
     }
 
     fn modes(&self, py: Python<'_>, progress: Option<&Bound<'_, PyAny>>) -> PyResult<Modes> {
-        let (case, result) = self.compute(py, Purpose::Modes, progress, |case, told| compute_modes(case, told))?;
+        let (case, result) = self.compute(py, Purpose::Modes, progress, compute_modes)?;
         Ok(Modes { case, result })
     }
 
@@ -134,7 +134,7 @@ impl Case {
     }
 
     fn frf(&self, py: Python<'_>, progress: Option<&Bound<'_, PyAny>>) -> PyResult<Frf> {
-        let (case, result) = self.compute(py, Purpose::Frf, progress, |case, told| compute_frf(case, told))?;
+        let (case, result) = self.compute(py, Purpose::Frf, progress, compute_frf)?;
         Ok(Frf { case, result })
     }
 

@@ -29,7 +29,7 @@ mod _plummer {
     #[pymodule_export]
     use crate::frf::Frf;
     #[pymodule_export]
-    use crate::mesh::Mesh;
+    use crate::mesh::{Mesh, node_order};
     #[pymodule_export]
     use crate::modes::Modes;
     #[pymodule_export]

@@ -5,6 +5,7 @@ use numpy::{PyArray1, PyArray2, PyReadonlyArray1, PyReadonlyArray2};
 use plummer::fe::mesh::{
     Cells, ElementBlock, ElementKind, Entity, EntityGroup, Mesh as Library, MeshError, MeshParts, MshError,
 };
+use plummer::formats::vtu;
 use plummer::prelude::LengthUnit;
 use pyo3::prelude::*;
 use std::collections::HashMap;
@@ -46,6 +47,14 @@ fn kind(gmsh_type: i32) -> Result<ElementKind, MshError> {
             ElementKind::all().map(|kind| format!("{} ({})", kind.gmsh_type(), kind.name())).collect();
         MshError(format!("elements of gmsh's type {gmsh_type}: expected one of {}", known.join(", ")))
     })
+}
+
+/// Number of nodes of an element of gmsh's type; for each place of a node in VTK's order its place in gmsh's.
+#[pyfunction]
+pub(crate) fn node_order(py: Python<'_>, gmsh_type: i32) -> PyResult<(usize, Vec<usize>)> {
+    let wrong = |fault| errors::of(py, MeshError::Gmsh { path: PathBuf::from("cells"), fault });
+    let kind = kind(gmsh_type).map_err(wrong)?;
+    Ok((kind.nodes(), vtu::node_order(kind).to_vec()))
 }
 
 fn points(nodes: &PyReadonlyArray2<'_, f64>) -> Result<Vec<[f64; 3]>, MshError> {

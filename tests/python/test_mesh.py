@@ -88,11 +88,20 @@ def test_arrays_that_are_no_mesh_are_refused() -> None:
         ({"quad": [[0, 1, 2, -1]]}, None, "node -1"),
         ({"pentagon": [[0, 1, 2, 3]]}, None, "'pentagon', expected some of vertex"),
         ({"quad": [0, 1, 2, 3]}, None, r"shape \(4,\)"),
+        ({"quad8": [[0, 1, 2, 3]]}, None, r"shape \(1, 4\), expected \[elements, 8\]"),
+        ({"quad": [[0, 1.5, 2, 3]]}, None, "expected whole numbers"),
         ({"quad": [[0, 1, 2, 3]]}, {"plate": {"quad": [4]}}, "element 4"),
+        ({"quad": [[0, 1, 2, 3]]}, {"plate": {"quad": [-1]}}, "element -1, expected indices from 0"),
+        ({"quad": [[0, 1, 2, 3]]}, {"plate": {"quad": [True, False]}}, r"mask of shape \(2,\), expected \(1,\)"),
+        ({"quad": [[0, 1, 2, 3]]}, {"plate": {"quads": [0]}}, "'plate' has elements of kind 'quads', expected some of quad"),
     ]:
         with pytest.raises(plummer.MeshError, match=words):
             plummer.Mesh.from_arrays(square, cells, groups)
     with pytest.raises(plummer.MeshError, match=r"shape \[4, 1\]"):
         plummer.Mesh.from_arrays([[0], [1], [2], [3]], {"quad": [[0, 1, 2, 3]]})
+    with pytest.raises(plummer.MeshError, match="order: found 'abaqus'"):
+        plummer.Mesh.from_arrays(square, {"quad": [[0, 1, 2, 3]]}, order="abaqus")
+    mask = plummer.Mesh.from_arrays(square, {"quad": [[0, 1, 2, 3]]}, {"plate": {"quad": [True]}})
+    assert mask.groups == ["plate"]
     with pytest.raises(plummer.MeshError, match="cannot read the mesh nothing.msh"):
         plummer.Mesh.read("nothing.msh")

@@ -48,7 +48,7 @@ impl MeshParts {
     /// An index that no element or node has is left for [`Self::to_msh`] to refuse.
     ///
     /// # Errors
-    /// [`MshError`] for a group with an element that is not there.
+    /// [`MshError`] for an element that lacks nodes, and for a group with an element that is not there.
     pub fn of_cells(nodes: Vec<[f64; 3]>, cells: &[Cells]) -> Result<Self, MshError> {
         let mut parts = Self { node_tags: (1..=nodes.len() as u64).collect(), nodes, ..Self::default() };
         let mut numbers: BTreeMap<(usize, &str), i32> = BTreeMap::new();
@@ -56,6 +56,10 @@ impl MeshParts {
         let mut before = 0;
         for Cells { kind, connectivity, groups } in cells {
             let (dimension, count) = (kind.dimension(), connectivity.len() / kind.nodes());
+            if connectivity.len() % kind.nodes() != 0 {
+                let (kind, found, each) = (kind.name(), connectivity.len(), kind.nodes());
+                return Err(MshError(format!("elements {kind} have {found} nodes: expected {each} each")));
+            }
             let mut memberships: Vec<Vec<i32>> = vec![Vec::new(); count];
             for (name, members) in groups {
                 let next = numbers.len() as i32 + 1;

@@ -75,6 +75,8 @@ fn what_no_file_can_say_is_refused() {
     };
     let message = cells(&[0, 1], &[1]).unwrap_err().to_string();
     assert_eq!(message, "group \"all\" has element 1 of the 1 Line2: expected one below 1");
+    let message = cells(&[0, 1, 0], &[0]).unwrap_err().to_string();
+    assert_eq!(message, "elements Line2 have 3 nodes: expected 2 each");
     let parts = cells(&[0, 2], &[0]).unwrap();
     assert_eq!(parts.to_msh().unwrap_err().to_string(), "an element Line2 has node 2: expected an index below 2");
     let mut parts = cells(&[0, 1], &[0]).unwrap();
