@@ -61,6 +61,7 @@ pub(crate) use check::short;
 pub use check::{BrokenRule, Rule};
 pub use condense::{Centre, Condense, FixedInterfaceModes, Interface, InterfaceModes};
 pub use defect::{Defect, DentDefect, DentProfile, FlatDefect, MeasuredDefect, ProfileFile};
+pub(in crate::app) use document::Document;
 pub use document::Source;
 pub use envelope_band::EnvelopeBand;
 pub use error::CaseError;

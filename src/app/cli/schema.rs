@@ -21,6 +21,7 @@ use crate::app::commands::modes::ModesSummary;
 use crate::app::commands::result::CaseResult;
 use crate::app::commands::run::{ExplainSummary, RunSummary};
 use crate::app::studies::chart::{ChartResult, Stability};
+use crate::app::studies::dataset::Manifest;
 use crate::app::studies::sweep::{ScriptsSummary, SweepSummary, TaskSummary};
 use crate::app::verification::VerifyResult;
 
@@ -62,6 +63,7 @@ impl ResultOf {
             Self::Sweep => {
                 of::<Either<CaseResult<'_, SweepSummary<'_>>, Either<TaskSummary, ScriptsSummary<'_>>>>(self)
             }
+            Self::Dataset => of::<Either<Manifest<'_>, Either<TaskSummary, ScriptsSummary<'_>>>>(self),
             Self::Verify => of::<VerifyResult<'_>>(self),
             Self::Inspect => of::<InspectResult<'_>>(self),
             Self::Init => of::<Either<DraftResult<'_>, Either<CatalogueResult, MaterialsResult>>>(self),

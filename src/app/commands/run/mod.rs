@@ -21,7 +21,7 @@ pub(crate) mod summary;
 pub mod unfinished;
 
 pub use compute::{RunResult, compute_run};
-pub(crate) use compute::{compute_kept_run, explain_run};
+pub(crate) use compute::{compute_kept_run, explain_run, step_run};
 pub(crate) use machine::alike;
 pub use machine::{BearingModel, Machine, PlaneMachine, SpatialMachine};
 pub use recording::{Checkpoints, InMemory, Recording, RunRequest, TakePiece};
