@@ -75,7 +75,7 @@ pub(in crate::app) use named_bearing::{FIT, bearing_help, other_size};
 pub use purpose::{AskedRun, Purpose, RunCase, SpatialCase};
 pub use report::ReportDetails;
 pub use ring::{Bond, Ring, RingSupport, Section, Tie};
-pub(in crate::app) use schema::in_words;
+pub(in crate::app) use schema::{file_schema, in_words};
 pub use seat::{Seat, SeatedBearing};
 pub use set::replaced_argument;
 pub(crate) use set::split_argument;

@@ -155,7 +155,7 @@ pub(crate) fn execute(arguments: &Arguments, to: &mut impl Write) -> Result<(), 
         Command::Dataset(asked) => dataset::dataset(asked, options),
         Command::Report { folder } => report::report(folder, options),
         Command::Verify { full } => verify::verify(*full, options),
-        Command::Schema { results } => return emit(to, &format!("{:#}", schema::schema(*results))),
+        Command::Schema { results, dataset } => return emit(to, &format!("{:#}", schema::schema(*results, *dataset))),
         Command::Init(asked) => init::init(asked, options),
         Command::Inspect { mesh, length_unit, density, straighten } => {
             inspect::inspect(mesh, *length_unit, *density, *straighten, options)

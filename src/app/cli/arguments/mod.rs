@@ -198,6 +198,9 @@ pub enum Command {
         /// Print the schema of what this command writes as COMMAND.json and prints with --json
         #[arg(long, value_name = "COMMAND", value_enum)]
         results: Option<ResultOf>,
+        /// Print the schema of specifications for `plummer dataset`
+        #[arg(long, conflicts_with = "results")]
+        dataset: bool,
     },
 }
 

@@ -5,6 +5,7 @@ use super::manifest::SignalRecord;
 use super::noise::Around;
 use super::plan::DatasetPlan;
 use super::recorder::{Recorded, ThroughChannel};
+use super::spec::Untrusted;
 use crate::app::case::Case;
 use crate::app::commands::run::{RunEnd, step_run};
 use crate::app::error::ComputeError;
@@ -220,7 +221,11 @@ impl DatasetPlan {
             return Ok(Err(blow_up.to_string()));
         }
         if let Some(why) = run.choice.distrust() {
-            return Ok(Err(format!("it cannot be trusted: {why}")));
+            let reason = format!("it cannot be trusted: {why}");
+            match self.spec.untrusted {
+                Untrusted::LeaveOut => return Ok(Err(reason)),
+                Untrusted::Keep => record.reason = Some(reason),
+            }
         }
         let samples = run.simulation.record.samples;
         if samples.len() != recorder.samples || samples.iter().any(|sample| !sample.is_finite()) {

@@ -183,13 +183,17 @@ impl DatasetPlan {
 
     fn noise(&self, number: usize, draw: &mut dyn FnMut(&str, &Amount) -> f64) -> Noise {
         let Some(asked) = &self.spec.noise else {
-            return Noise { coloured: None, background: None, tones: Vec::new() };
+            return Noise { coloured: None, modulation: [[0.0; 2]; 3], background: None, tones: Vec::new() };
         };
         let mut drawn = |name: &str, amount: &Option<Amount>| amount.as_ref().map(|amount| draw(name, amount));
         let own = |name: &str| stream(self.spec.seed, Level::Signal, number, name);
         let loudness = drawn("noise.snr_db", &asked.snr_db).map(Loudness::Below);
         let loudness = loudness.or_else(|| drawn("noise.rms", &asked.rms).map(Loudness::Itself));
         let colour = drawn("noise.colour", &asked.colour).unwrap_or(0.0);
+        let most = drawn("noise.modulation", &asked.modulation).unwrap_or(0.0);
+        let mut swell = own("noise.modulation of orders");
+        // together no more than the share
+        let modulation = std::array::from_fn(|_| [most / 3.0 * swell.unit(), TAU * swell.unit()]);
         let background = asked.background.as_ref().and_then(|background| {
             let ratio = drawn("noise.background.ratio_db", &background.ratio_db).map(Loudness::Below);
             let loudness = ratio.or_else(|| drawn("noise.background.gain", &background.gain).map(Loudness::Itself));
@@ -205,7 +209,7 @@ impl DatasetPlan {
             Some(Tone { pitch: pitch?, loudness: loudness?, phase: TAU * phases.unit() })
         });
         let tones = tones.collect();
-        Noise { coloured: loudness.map(|loudness| (loudness, colour, own("noise"))), background, tones }
+        Noise { coloured: loudness.map(|loudness| (loudness, colour, own("noise"))), modulation, background, tones }
     }
 
     /// Reads the cases of the first signal of each kind of machine with each fault: what is wrong with all is wrong with the specification.

@@ -40,6 +40,8 @@ pub(super) enum Loudness {
 pub(super) struct Noise {
     /// How loud, the exponent of its spectrum, and its random numbers.
     pub(super) coloured: Option<(Loudness, f64, Stream)>,
+    /// Share by which it swells with the orders of the shaft from 1 on, and their phases, rad.
+    pub(super) modulation: [[f64; 2]; 3],
     /// How loud, and where it begins between the first and the last place, 0 to 1.
     pub(super) background: Option<(Loudness, f64)>,
     pub(super) tones: Vec<Tone>,

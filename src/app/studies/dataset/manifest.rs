@@ -21,7 +21,7 @@ pub struct SignalRecord {
     pub file: Option<String>,
     /// Its row there, from 0.
     pub row: Option<usize>,
-    /// Why it could not be computed or cannot be trusted; null of one that is there.
+    /// Why it could not be computed or cannot be trusted; null of others.
     pub reason: Option<String>,
     /// "none", "outer", "inner", "ball" or "several".
     pub label: String,

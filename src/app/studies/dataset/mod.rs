@@ -28,3 +28,4 @@ pub(crate) use identity::DatasetIdentity;
 pub use manifest::{Manifest, SignalRecord};
 pub(crate) use plan::DatasetPlan;
 pub(crate) use shards::RECORDS;
+pub(crate) use spec::DatasetSpec;

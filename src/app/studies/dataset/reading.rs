@@ -181,6 +181,7 @@ impl DatasetSpec {
                 return refuse("noise.colour", Rule::found("a colour without a level", "snr_db or rms beside it"));
             }
             amount("noise.rms", &noise.rms, "a number not below 0", |x| x >= 0.0 && x.is_finite())?;
+            amount("noise.modulation", &noise.modulation, "a share from 0 to 1", |x| (0.0..=1.0).contains(&x))?;
             amount("noise.colour", &noise.colour, "an exponent from -4 to 4", |x| (-4.0..=4.0).contains(&x))?;
             let db = |x: f64| (-200.0..=200.0).contains(&x) || x.is_infinite();
             amount("noise.snr_db", &noise.snr_db, finite, db)?;

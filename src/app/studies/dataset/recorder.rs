@@ -142,3 +142,72 @@ impl Recorded {
         Ok(Self { samples: samples.into_iter().map(|sample| sample as f32).collect(), clean_rms, clipped })
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::f64::consts::TAU;
+
+    fn recorder() -> Recorder {
+        Recorder {
+            rate_hz: 10e3,
+            oversampling: 8,
+            samples: 4000,
+            settling: 500,
+            anti_alias_hz: 4e3,
+            anti_alias_order: 8,
+            high_pass_hz: None,
+            resonance_hz: None,
+            resonance_damping: 0.02,
+            path: None,
+            gain: 1.0,
+            converter: None,
+        }
+    }
+
+    /// Amplitude of a tone of amplitude 1 behind the recorder.
+    fn gain(recorder: &Recorder, hz: f64) -> f64 {
+        let mut channel = Channel::new(recorder, RecordLayout::default()).unwrap();
+        let rate = recorder.rate_hz * recorder.oversampling as f64;
+        let count = (recorder.settling + recorder.samples) * recorder.oversampling + 1;
+        let tone = (0..count).map(|n| (TAU * hz * n as f64 / rate).cos()).collect();
+        let rows = RunRecord { sensors: vec![("P".to_owned(), tone)], ..RunRecord::default() };
+        channel.append(&rows).unwrap();
+        assert_eq!(channel.samples.len(), recorder.samples);
+        root_mean_square(&channel.samples) * 2.0_f64.sqrt()
+    }
+
+    fn near(found: f64, expected: f64) {
+        assert!((found / expected - 1.0).abs() < 2e-3, "{found}, expected {expected}");
+    }
+
+    #[test]
+    fn each_part_has_its_own_gain() {
+        let plain = recorder();
+        near(gain(&plain, 1e3), 1.0);
+        near(gain(&plain, 4e3), 0.5_f64.sqrt());
+        // what would fold to 3 kHz
+        assert!(gain(&plain, 13e3) < 1e-3);
+        near(gain(&Recorder { gain: 2.5, ..recorder() }, 1e3), 2.5);
+        near(gain(&Recorder { high_pass_hz: Some(500.0), ..recorder() }, 500.0), 0.5_f64.sqrt());
+        // 1 / (1 - r^2) below the resonance, as far as the bilinear transform keeps it
+        let resonant = Recorder { resonance_hz: Some(6e3), ..recorder() };
+        let warped = |hz: f64| (TAU * hz / 160e3).tan();
+        let ratio = warped(3e3) / warped(6e3);
+        near(gain(&resonant, 3e3) / gain(&plain, 3e3), 1.0 / (1.0 - ratio * ratio));
+        // a mode alone, at its frequency
+        let path = Some((0.0, vec![[2e3, 0.05, 0.7]]));
+        near(gain(&Recorder { path, ..recorder() }, 2e3), 0.7 * gain(&plain, 2e3));
+    }
+
+    #[test]
+    fn a_converter_has_steps_and_an_end() {
+        let around = Around { background: None, step_s: 1e-4, shaft: &|_| 0.0 };
+        let silent = Noise { coloured: None, modulation: [[0.0; 2]; 3], background: None, tones: Vec::new() };
+        let recorder = Recorder { converter: Some([0.5, 2.0]), ..recorder() };
+        let samples = vec![0.2, 0.3, -0.74, 1.6, 9.0, -9.0, -2.0, 1.5];
+        let found = Recorded::new(samples, &recorder, &silent, &around).unwrap();
+        assert_eq!(found.samples, [0.0, 0.5, -0.5, 1.5, 1.5, -2.0, -2.0, 1.5]);
+        assert!((found.clipped - 2.0 / 8.0).abs() < 1e-12, "{}", found.clipped);
+    }
+}

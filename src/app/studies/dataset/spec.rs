@@ -5,9 +5,10 @@
 
 use super::distribution::{Amount, Distribution};
 use super::level::Level;
-use crate::app::case::Source;
+use crate::app::case::{Source, file_schema};
 use schemars::JsonSchema;
 use serde::Deserialize;
+use serde_json::Value;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
@@ -53,6 +54,9 @@ pub(crate) struct DatasetSpec {
     pub slip: Option<SlipSpec>,
     /// Sensor and recorder.
     pub recorder: RecorderSpec,
+    /// What becomes of signals whose waveform depends on the smallest disturbance, or whose model errs as much as they are.
+    #[serde(default)]
+    pub untrusted: Untrusted,
     /// Noise; absent: none.
     #[serde(default)]
     pub noise: Option<NoiseSpec>,
@@ -88,6 +92,17 @@ impl Split {
     pub(super) fn shares(&self) -> [f64; 3] {
         [self.train, self.validation, self.test]
     }
+}
+
+/// What becomes of signals that cannot be trusted; the manifest has the reason either way.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub(crate) enum Untrusted {
+    /// They have no samples.
+    #[default]
+    LeaveOut,
+    /// They are there.
+    Keep,
 }
 
 /// What is never in two parts of the split.
@@ -274,6 +289,9 @@ pub(crate) struct NoiseSpec {
     /// RMS of the noise in the place of `snr_db`, m/s^2.
     #[serde(default)]
     pub rms: Option<Amount>,
+    /// Share by which the noise swells and falls with the first three orders of the shaft together; absent: not at all.
+    #[serde(default)]
+    pub modulation: Option<Amount>,
     /// Exponent e of the noise's power spectrum `1 / f^e`: 0 white (default), 1 pink, 2 brown.
     #[serde(default)]
     pub colour: Option<Amount>,
@@ -379,6 +397,11 @@ impl RecorderSpec {
 }
 
 impl DatasetSpec {
+    /// The JSON Schema (draft 07) of a specification.
+    pub(crate) fn schema() -> Value {
+        file_schema::<Self>("specification of plummer dataset")
+    }
+
     /// The values of a level for the machines of an entry, those of the entry before those of all.
     pub(super) fn keys_of(&self, entry: usize, level: Level) -> Keys {
         let machine = &self.machines[entry];
