@@ -5,10 +5,10 @@ cd "$(dirname "$0")/.."
 
 deny=cargo-deny
 [ -x target/tools/bin/cargo-deny ] && deny=target/tools/bin/cargo-deny
-"$deny" check licenses bans sources
+"$deny" --workspace check licenses bans sources
 
 # the database comes from the network, and its absence is no fault of ours; an advisory is
-said=$("$deny" check advisories 2>&1) && { echo "advisories ok"; exit 0; }
+said=$("$deny" --workspace check advisories 2>&1) && { echo "advisories ok"; exit 0; }
 case $said in
 *"failed to fetch advisory database"*) echo "advisories not checked: their database cannot be reached" ;;
 *)

@@ -2,6 +2,7 @@
 
 pub use crate::app::case::Case;
 pub use crate::app::commands::analyze::{WindowAnalysis, compute_analysis};
+pub use crate::app::commands::computed::Computed;
 pub use crate::app::commands::condense::{Comparison, compute_condense, superelement_record};
 pub use crate::app::commands::frf::compute_frf;
 pub use crate::app::commands::modes::compute_modes;

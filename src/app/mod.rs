@@ -4,6 +4,7 @@
 //!
 //! - [`case`]: the case file, read and checked;
 //! - [`error`]: what can go wrong on the way to a result;
+//! - [`program`]: which program this is, where another has loaded it;
 //! - [`scene`]: a checked case as domain objects;
 //! - [`commands`]: what each command computes, as a value, and its report;
 //! - [`verification`]: the built-in checks of `plummer verify`;
@@ -16,6 +17,7 @@ pub mod case;
 pub mod cli;
 pub mod commands;
 pub mod error;
+pub mod program;
 pub mod scene;
 pub mod shell_word;
 pub mod studies;

@@ -204,7 +204,7 @@ impl Source {
     }
 
     /// Title, number, year and page.
-    pub fn citation(self) -> &'static str {
+    pub(crate) fn citation(self) -> &'static str {
         match self {
             Self::Gmn => "GMN, High precision ball bearings, catalogue 4000 0813 EN (2013), pp. 52-55",
             Self::Timken => "Timken, Products catalog (2014), section D: MM9100K p. D84, MM200K p. D96, MM300K p. D106",
@@ -257,12 +257,12 @@ pub struct CatalogueBearing {
 
 impl CatalogueBearing {
     /// Diameter of the outer raceway at the groove's bottom without clearance: pitch and ball diameter.
-    pub fn outer_race_diameter(&self) -> f64 {
+    pub(crate) fn outer_race_diameter(&self) -> f64 {
         self.pitch_diameter + self.ball_diameter
     }
 
     /// Diameter of the inner raceway at the groove's bottom without clearance.
-    pub fn inner_race_diameter(&self) -> f64 {
+    pub(crate) fn inner_race_diameter(&self) -> f64 {
         self.pitch_diameter - self.ball_diameter
     }
 }

@@ -155,7 +155,7 @@ impl BearingGeometry {
     }
 
     /// Ball over pitch diameter, below one.
-    pub fn diameter_ratio(&self) -> f64 {
+    pub(crate) fn diameter_ratio(&self) -> f64 {
         self.dimensions.ball_radius / self.pitch_radius()
     }
 
@@ -170,12 +170,12 @@ impl BearingGeometry {
     }
 
     /// Inner groove radius over ball diameter, above 1/2 (catalogue: 0.51 to 0.54).
-    pub fn inner_conformity(&self) -> f64 {
+    pub(crate) fn inner_conformity(&self) -> f64 {
         0.5 * self.dimensions.inner_groove_radius / self.dimensions.ball_radius
     }
 
     /// Outer groove radius over ball diameter, above 1/2 (catalogue: 0.51 to 0.54).
-    pub fn outer_conformity(&self) -> f64 {
+    pub(crate) fn outer_conformity(&self) -> f64 {
         0.5 * self.dimensions.outer_groove_radius / self.dimensions.ball_radius
     }
 
@@ -196,18 +196,18 @@ impl BearingGeometry {
     }
 
     /// Curvatures of a ball, 1/m.
-    pub fn ball_curvatures(&self) -> PrincipalCurvatures {
+    pub(crate) fn ball_curvatures(&self) -> PrincipalCurvatures {
         PrincipalCurvatures::sphere(self.dimensions.ball_radius)
     }
 
     /// Curvatures of the inner race, 1/m: concave groove, convex along the rolling direction.
-    pub fn inner_curvatures(&self) -> PrincipalCurvatures {
+    pub(crate) fn inner_curvatures(&self) -> PrincipalCurvatures {
         let BearingDimensions { inner_groove_radius, inner_race_radius, .. } = self.dimensions;
         PrincipalCurvatures { plane_1: -1.0 / inner_groove_radius, plane_2: 1.0 / inner_race_radius }
     }
 
     /// Curvatures of the outer race, 1/m: concave both ways.
-    pub fn outer_curvatures(&self) -> PrincipalCurvatures {
+    pub(crate) fn outer_curvatures(&self) -> PrincipalCurvatures {
         let BearingDimensions { outer_groove_radius, outer_race_radius, .. } = self.dimensions;
         PrincipalCurvatures { plane_1: -1.0 / outer_groove_radius, plane_2: -1.0 / outer_race_radius }
     }

@@ -275,9 +275,9 @@ pub(super) fn cell_type(kind: ElementKind) -> u8 {
     }
 }
 
-/// For each place in VTK's order, the place in gmsh's. Face centres are in the order of `vtkTriQuadraticHexahedron.cxx`:
+/// For each place of an element's node in VTK's order, its place in gmsh's. Face centres are in the order of `vtkTriQuadraticHexahedron.cxx`:
 /// low and high x, then y, then z.
-pub(super) fn node_order(kind: ElementKind) -> &'static [usize] {
+pub fn node_order(kind: ElementKind) -> &'static [usize] {
     match kind {
         ElementKind::Tet10 => &TET10,
         ElementKind::Hex20 | ElementKind::Hex27 => &HEX27[..kind.nodes()],

@@ -130,7 +130,7 @@ impl WindowFunction {
 
     /// Distance from the main lobe's peak to its first zero in natural bins, 1 / duration: lines closer than that are
     /// not separated, however finely the spectrum is padded.
-    pub fn main_lobe_bins(self) -> f64 {
+    pub(crate) fn main_lobe_bins(self) -> f64 {
         self.terms().len() as f64
     }
 

@@ -57,7 +57,7 @@ pub struct Kurtogram {
 
 impl KurtogramBand {
     /// Lower and upper edge, Hz, to 12 digits: a rate is one over a step that was rounded, and 25 000 Hz shall be that.
-    pub fn edges_hz(&self) -> [f64; 2] {
+    pub(crate) fn edges_hz(&self) -> [f64; 2] {
         // the middle is a half more than a whole number of widths
         let place = (self.centre_hz / self.width_hz - 0.5).round();
         [place, place + 1.0].map(|edge| {
@@ -76,7 +76,7 @@ impl Kurtogram {
 
     /// The band with the largest kurtosis of those beyond their limit: what to demodulate. `None`: the signal cannot be told
     /// from Gaussian noise, and no band should be preferred.
-    pub fn most_impulsive(&self) -> Option<&KurtogramBand> {
+    pub(crate) fn most_impulsive(&self) -> Option<&KurtogramBand> {
         let beyond = self.bands.iter().filter(|band| band.kurtosis > band.limit);
         beyond.max_by(|a, b| a.kurtosis.total_cmp(&b.kurtosis))
     }

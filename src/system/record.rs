@@ -117,7 +117,7 @@ impl Column {
 
 impl RunRecord {
     /// A record without rows.
-    pub(crate) fn blank(layout: RecordLayout) -> Self {
+    pub fn blank(layout: RecordLayout) -> Self {
         let RecordLayout { sensors, balls, in_space } = layout;
         let sensors = sensors.into_iter().map(|name| (name, Vec::new())).collect();
         Self { sensors, balls, in_space, ..Self::default() }

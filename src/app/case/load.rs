@@ -122,6 +122,7 @@ impl Case {
             source.set.extend(variant.set.iter().cloned());
             match Self::without_variants(source) {
                 Ok(mut case) => {
+                    case.contents.clone_from(&self.contents);
                     case.modes.variants.clear();
                     if let Some(frf) = &mut case.frf {
                         frf.variants.clear();

@@ -48,8 +48,11 @@ mod tests;
 mod transient;
 mod tree;
 mod union;
+mod value;
 
 use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -143,6 +146,9 @@ pub struct Case {
     /// Where the case came from.
     #[serde(skip)]
     pub source: Source,
+    /// Files that are at hand, by their resolved paths: what is here is not read from the disk.
+    #[serde(skip)]
+    pub(crate) contents: BTreeMap<PathBuf, Arc<[u8]>>,
 }
 
 /// Default of what is on unless it is switched off.
@@ -198,6 +204,20 @@ impl Case {
     #[must_use]
     pub fn target(&self) -> f64 {
         self.accuracy.as_ref().map_or(0.01, |accuracy| accuracy.target)
+    }
+
+    /// Takes the content of a mesh file that the case names, so that it is not read from the disk. `file` is its name in
+    /// the case.
+    #[must_use]
+    pub fn with_content(mut self, file: impl AsRef<Path>, content: Arc<[u8]>) -> Self {
+        let path = self.source.path.parent().unwrap_or(Path::new("")).join(file);
+        self.contents.insert(path, content);
+        self
+    }
+
+    /// The content of a file that is at hand.
+    pub(crate) fn content(&self, path: &Path) -> Option<&Arc<[u8]>> {
+        self.contents.get(path)
     }
 
     /// Returns the case file's name without folder and ending, or `case` if it has none.

@@ -3,9 +3,7 @@
 use super::report::ReportFiles;
 use super::results::{Job, warnings};
 use super::{CliError, Outcome, typed};
-use crate::app::commands::condense::{
-    Comparison, CondenseResult, Coordinates, compute_condense, condense_report, imported_report,
-};
+use crate::app::commands::condense::{Comparison, CondenseResult, compute_condense, condense_report, imported_report};
 use crate::app::error::ComputeError;
 use crate::app::scene::{Boundary, ImportedHousing};
 use crate::fe::reduction::{Bound, Check};
@@ -30,9 +28,7 @@ pub(super) fn condense(job: &Job<'_>, compare_full: bool) -> Result<Outcome, Cli
     let report = condense_report(case, &result, &typed());
     let files = ReportFiles::write(&job.folder, "condense", case, report, progress)?;
     let element = job.folder.path.join("superelement.npz");
-    let reduction = result.interface.as_ref().map(|interface| &interface.reduction);
-    let record = Coordinates { stage: &result.stage, reduction }.record(case)?;
-    write_superelement_npz(&element, &record).map_err(ComputeError::from)?;
+    write_superelement_npz(&element, &result.record(case)?).map_err(ComputeError::from)?;
     let (path, json) = job.write_result(&files, &[], result.summary())?;
     Ok(Outcome {
         summary: summary(&result),

@@ -25,11 +25,11 @@ use thiserror::Error;
 #[error("{what}")]
 pub struct CliError {
     /// Whether the input is wrong, rather than the computation or the writing failed or its answer is bad.
-    pub(crate) is_input: bool,
+    pub is_input: bool,
     /// What is wrong, where and when.
-    pub(crate) what: String,
+    pub what: String,
     /// What to do about it, a line for each thing.
-    pub(crate) help: Option<String>,
+    pub help: Option<String>,
 }
 
 impl CliError {

@@ -28,6 +28,7 @@ mod shell;
 mod sweep;
 mod verify;
 
+use std::ffi::OsString;
 use std::io::{self, Write};
 use std::num::NonZeroUsize;
 use std::path::Path;
@@ -50,6 +51,7 @@ pub use share::Share;
 pub use sweep::SweepArguments;
 
 use crate::app::case::{Case, Purpose};
+use crate::app::program;
 use crate::app::scene::doubts_of_case;
 use crate::app::shell_word::{cut, printable};
 
@@ -59,6 +61,14 @@ const STACK: usize = 8 << 20;
 /// Runs the program on the process's arguments and returns its exit code.
 #[must_use]
 pub fn main() -> ExitCode {
+    ExitCode::from(main_of(std::env::args_os().skip(1).collect()))
+}
+
+/// Runs the program on `arguments`, which do not begin with its name, and returns its exit code: 0, 1 or 2. Once a process;
+/// signals belong to the program from then on.
+#[must_use]
+pub fn main_of(arguments: Vec<OsString>) -> u8 {
+    program::declare_arguments(arguments);
     let named = std::thread::Builder::new().name("main".to_owned());
     match named.stack_size(STACK).spawn(on_arguments) {
         Ok(work) => work.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic)),
@@ -68,36 +78,37 @@ pub fn main() -> ExitCode {
                 "error: a thread with a stack of {} MiB could not be started: {error}\nhelp: raise the limits of memory and threads (ulimit -v, ulimit -u)",
                 STACK >> 20
             );
-            ExitCode::FAILURE
+            1
         }
     }
 }
 
-fn on_arguments() -> ExitCode {
-    if let Some(word) = std::env::args_os().find(|word| word.to_str().is_none()) {
+fn on_arguments() -> u8 {
+    let words = program::arguments();
+    if let Some(word) = words.iter().find(|word| word.to_str().is_none()) {
         let word = word.to_string_lossy();
         let _ = writeln!(
             io::stderr(),
             "error: argument \"{word}\": expected text in UTF-8, found other bytes\nhelp: rename the file or its folder"
         );
-        return ExitCode::from(2);
+        return 2;
     }
-    let arguments = match Arguments::try_parse() {
+    let arguments = match Arguments::try_parse_from([OsString::from("plummer")].into_iter().chain(words)) {
         Ok(arguments) => arguments,
         Err(error) => {
             // Help or version to a pipe that was closed is no failure.
             let text = error.render().to_string();
             let short = cut(&text);
             let _ = if short == text { error.print() } else { writeln!(io::stderr(), "{short}") };
-            return ExitCode::from(u8::try_from(error.exit_code()).unwrap_or(2));
+            return u8::try_from(error.exit_code()).unwrap_or(2);
         }
     };
     let caught = failure::fail_at_limits().and_then(|()| failure::catch_interrupts());
     match caught.and_then(|()| execute(&arguments, &mut io::stdout().lock())) {
-        Ok(()) => ExitCode::SUCCESS,
+        Ok(()) => 0,
         Err(error) => {
             error.report(&mut io::stderr().lock());
-            ExitCode::from(error.exit_code())
+            error.exit_code()
         }
     }
 }

@@ -2,6 +2,7 @@
 
 pub mod analyze;
 pub mod bearing;
+pub mod computed;
 pub mod condense;
 pub mod frf;
 pub mod init;

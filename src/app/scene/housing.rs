@@ -149,9 +149,17 @@ impl From<&FileDigest> for MeshFile {
 /// [`ComputeError::Mesh`]; [`ComputeError::Case`] for a group that the mesh lacks.
 pub(crate) fn read_mesh(case: &Case, housing: &Housing, watch: &impl Watch) -> Result<Mesh, ComputeError> {
     let path = &housing.mesh;
-    let bytes = files::read(path).map_err(|cause| MeshError::Read { path: path.clone(), cause })?;
-    watch.read(&FileDigest::of_bytes(path, &bytes));
-    let mut mesh = Mesh::from_bytes(bytes, path, housing.length_unit)?;
+    let mut mesh = match case.content(path) {
+        Some(content) => {
+            watch.read(&FileDigest::of_bytes(path, content));
+            Mesh::from_bytes(content, path, housing.length_unit)?
+        }
+        None => {
+            let bytes = files::read(path).map_err(|cause| MeshError::Read { path: path.clone(), cause })?;
+            watch.read(&FileDigest::of_bytes(path, &bytes));
+            Mesh::from_bytes(bytes, path, housing.length_unit)?
+        }
+    };
     if housing.straighten {
         straighten(&mut mesh)?;
     }
@@ -178,11 +186,12 @@ pub(crate) fn mesh_digests(case: &Case) -> Result<Vec<FileDigest>, ComputeError>
             paths.push(path);
         }
     }
-    let digest = |path: &&Path| {
-        FileDigest::of_file(path).map_err(|cause| {
+    let digest = |path: &&Path| match case.content(path) {
+        Some(content) => Ok(FileDigest::of_bytes(path, content)),
+        None => FileDigest::of_file(path).map_err(|cause| {
             let path = path.to_path_buf();
             ComputeError::from(MeshError::Read { path, cause })
-        })
+        }),
     };
     paths.iter().map(digest).collect()
 }
@@ -218,5 +227,7 @@ mod tests {
         std::fs::remove_file(folder.path().join("b.msh")).unwrap();
         let error = mesh_digests(&case).unwrap_err().to_string();
         assert!(error.contains("b.msh"), "{error}");
+        let at_hand = mesh_digests(&case.with_content("b.msh", b"abc".as_slice().into())).unwrap();
+        assert_eq!(at_hand.iter().map(|digest| digest.sha256.as_str()).collect::<Vec<_>>(), [abc, abc]);
     }
 }

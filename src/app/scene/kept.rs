@@ -6,6 +6,7 @@
 
 use super::places::Place;
 use super::ring::Boundary;
+use crate::app::program::Program;
 use crate::fe::assembly::SystemMatrices;
 use crate::fe::reduction::{BasisChoice, Superelement};
 use crate::files::{self, FileDigest, hex, make_below, no_link, write_atomic};
@@ -167,8 +168,7 @@ fn locked(path: &Path, watch: &impl Watch) -> io::Result<File> {
 /// Digest of all that a condensed housing follows from.
 fn key(matrices: &SystemMatrices, boundary: &Boundary, choice: BasisChoice, places: &[Place]) -> io::Result<String> {
     let mut sum = Sha256::new_with_prefix(MAGIC);
-    let program = std::env::current_exe()?;
-    sum.update(FileDigest::of_file(&program)?.sha256);
+    sum.update(FileDigest::of_file(&Program::this()?.code)?.sha256);
     sparse(&mut sum, &matrices.stiffness);
     sparse(&mut sum, &matrices.mass);
     dense(&mut sum, &matrices.weight);

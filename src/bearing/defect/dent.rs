@@ -123,7 +123,8 @@ impl Dent {
 
     /// Curvature of the floor at its middle, 1/m, convex positive: `±1/R − b/a²`, whichever reading the
     /// stiffness takes.
-    pub fn bottom_curvature(&self) -> f64 {
+    #[cfg(test)]
+    pub(crate) fn bottom_curvature(&self) -> f64 {
         -self.profile.circles.carrier_concavity() - self.profile.floor.loss(0.0)
     }
 }

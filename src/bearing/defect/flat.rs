@@ -108,7 +108,8 @@ impl BallFlat {
     }
 
     /// Distance (m) from the ball's centre to its contour at `angle` (rad, any turn) from the flat's middle.
-    pub fn contour_radius(&self, angle: f64) -> f64 {
+    #[cfg(test)]
+    pub(crate) fn contour_radius(&self, angle: f64) -> f64 {
         self.inner.polar_radius(reduced(angle))
     }
 

@@ -8,7 +8,7 @@ use thiserror::Error;
 /// expected.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
 #[error("{0}")]
-pub struct MshError(pub(super) String);
+pub struct MshError(pub String);
 
 /// A mesh that cannot be read, or a name that it does not have.
 #[derive(Debug, Error)]

@@ -132,7 +132,7 @@ impl ElementKind {
     }
 
     /// The edges with a middle node, as their two corners; edge i carries node `corners() + i`. Empty for the linear elements.
-    pub const fn middle_edges(self) -> &'static [[usize; 2]] {
+    pub(crate) const fn middle_edges(self) -> &'static [[usize; 2]] {
         if self.order() == 2 { self.corner_edges() } else { &[] }
     }
 

@@ -32,6 +32,7 @@ pub(crate) use entity_groups::entity_name;
 pub use error::{MeshError, MshError};
 pub use faces::{BoundaryFace, Face};
 pub(crate) use faces::{sorted_corners, sorted_faces};
+pub use gmsh::{Cells, EntityGroup, MeshParts};
 pub(crate) use inp::{inp_face, inp_nodes};
 pub(crate) use inventory::Sets;
 pub use inventory::{BoundingBox, DuplicateNodes, GroupOverlap, GroupSummary, Inventory, KindCount, Part, UnusedNodes};

@@ -56,12 +56,12 @@ impl RingFrame {
     }
 
     /// A vector with components in the frame, in the mesh's axes.
-    pub fn vector_to_mesh(&self, vector: [f64; 3]) -> [f64; 3] {
+    pub(crate) fn vector_to_mesh(&self, vector: [f64; 3]) -> [f64; 3] {
         (self.turn.transpose() * Vector3::from(vector)).into()
     }
 
     /// A point of the frame (m) in the mesh's axes.
-    pub fn point_to_mesh(&self, point: [f64; 3]) -> [f64; 3] {
+    pub(crate) fn point_to_mesh(&self, point: [f64; 3]) -> [f64; 3] {
         (self.turn.transpose() * Vector3::from(point) + self.centre).into()
     }
 

@@ -43,7 +43,7 @@ impl Op4Matrix {
     }
 
     /// Whether it is complex; its numbers are then not kept.
-    pub fn is_complex(&self) -> bool {
+    pub(crate) fn is_complex(&self) -> bool {
         matches!(self.kind, 3 | 4)
     }
 

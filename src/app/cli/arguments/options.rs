@@ -1,5 +1,6 @@
 //! Options of every command, and the command line as it was typed.
 
+use crate::app::program;
 use crate::app::shell_word::shell_word;
 use clap::Args;
 use std::num::NonZeroUsize;
@@ -60,7 +61,8 @@ impl Options {
 
 /// The command line as it was typed, without options that the result does not depend on.
 pub(crate) fn typed() -> String {
-    without_manner(std::env::args().skip(1))
+    let words = program::arguments().into_iter().map(|word| word.to_string_lossy().into_owned());
+    without_manner(words)
 }
 
 pub(super) fn without_manner(mut words: impl Iterator<Item = String>) -> String {

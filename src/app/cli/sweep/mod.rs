@@ -278,7 +278,7 @@ pub(super) fn job_scripts(
     let absolute = |path: &Path| std::path::absolute(path).map_err(ComputeError::io(path));
     let program = points::program()?;
     let threads = options.threads.map_or(1, std::num::NonZeroUsize::get);
-    let scripts = slurm_scripts(command, &program, &absolute(&folder.path)?, tasks, threads);
+    let scripts = slurm_scripts(command, &program.call, &absolute(&folder.path)?, tasks, threads);
     folder.make_below(Path::new(command))?;
     let write = |name: &str, text: &str| folder.write(&format!("{command}/{name}"), text.as_bytes());
     let written = vec![

@@ -15,6 +15,7 @@ use super::super::{CliError, Options, write_atomic};
 use super::Share;
 use crate::app::commands::run::unfinished::{StopRequest, UnfinishedRun};
 use crate::app::error::ComputeError;
+use crate::app::program::Program;
 use crate::app::studies::sweep::{Plan, PointRecord, SweepPoint, SweptCommand};
 use crate::files;
 
@@ -27,14 +28,14 @@ const PATIENCE: Duration = Duration::from_secs(1);
 ///
 /// # Errors
 /// [`ComputeError::Failed`] if the system does not say where it is.
-pub(super) fn program() -> Result<PathBuf, ComputeError> {
-    std::env::current_exe().map_err(ComputeError::io(Path::new("plummer")))
+pub(super) fn program() -> Result<Program, ComputeError> {
+    Program::this().map_err(ComputeError::io(Path::new("plummer")))
 }
 
 /// So many processes at once, so many threads each.
 #[derive(Debug)]
 pub(super) struct Workers {
-    program: PathBuf,
+    program: Program,
     count: usize,
     threads: usize,
     /// Where the points look for condensed housings, and leave them for one another.
@@ -171,7 +172,7 @@ impl Workers {
     ) -> Result<ExitStatus, ComputeError> {
         let io = ComputeError::io;
         let file = File::create(log).map_err(io(log))?;
-        let mut command = Command::new(&self.program);
+        let mut command = self.program.command();
         command
             .arg(plan.command.name())
             .arg(&plan.case)
@@ -185,8 +186,8 @@ impl Workers {
             .stdin(Stdio::null())
             .stdout(Stdio::null())
             .stderr(Stdio::from(file));
-        let child = command.spawn().map_err(io(&self.program))?;
-        self.wait(child).map_err(io(&self.program))
+        let child = command.spawn().map_err(io(&self.program.code))?;
+        self.wait(child).map_err(io(&self.program.code))
     }
 
     /// Waits for a process, and asks it to end when this one is asked to.

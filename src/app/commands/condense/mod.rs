@@ -11,5 +11,4 @@ pub(crate) mod superelement_record;
 pub use compute::{Comparison, CondenseResult, FullComparison, ReducedInterface, compute_condense};
 pub(crate) use report::{condense_report, imported_report};
 pub use summary::{CondenseSummary, EstimateSummary, ImportedSummary, InterfaceSummary};
-pub(crate) use superelement_record::Coordinates;
 pub use superelement_record::superelement_record;

@@ -5,7 +5,9 @@
 use super::compute::{CondenseResult, FullComparison, ReducedInterface};
 use super::summary::hz;
 use crate::app::case::{Case, Purpose};
+use crate::app::commands::computed::Computed;
 use crate::app::commands::parts::{self, HousingSize, signed_report};
+use crate::app::error::ComputeError;
 use crate::app::scene::tie_price::{BeamAndSolid, BorePrice, TiePrice};
 use crate::app::scene::{Boundary, Centres, ImportedHousing};
 use crate::fe::model::{CentreNode, CentreTie, Rings};
@@ -14,6 +16,12 @@ use crate::report::{
     Abscissa, Axis, Block, Cell, Column, Curve, CurveStyle, Fact, Plot, Report, Section, Table, Verdict, significant,
 };
 use std::f64::consts::TAU;
+
+impl Computed for CondenseResult {
+    fn report(&self, case: &Case, command: &str) -> Result<Report, ComputeError> {
+        Ok(condense_report(case, self, command))
+    }
+}
 
 /// Composes the report; `command` is the line that made it.
 pub(crate) fn condense_report(case: &Case, result: &CondenseResult, command: &str) -> Report {

@@ -6,7 +6,7 @@ use crate::app::scene::ImportedHousing;
 use crate::app::scene::tie_price::{BorePrice, TiePrice};
 use crate::fe::reduction::{LostFlexibility, SizeErrors};
 use schemars::JsonSchema;
-use serde::Serialize;
+use serde::{Serialize, Serializer};
 use std::f64::consts::TAU;
 use std::path::Path;
 
@@ -165,5 +165,11 @@ impl ImportedHousing {
             notes: &self.notes,
             checks: CheckSummary::of(&self.checks),
         }
+    }
+}
+
+impl Serialize for CondenseResult {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        self.summary().serialize(serializer)
     }
 }

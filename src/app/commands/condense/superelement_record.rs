@@ -1,5 +1,6 @@
 //! A condensed housing as files carry it.
 
+use super::CondenseResult;
 use crate::app::case::{Case, Sensor};
 use crate::app::error::ComputeError;
 use crate::app::scene::condensed::basis_choice;
@@ -23,10 +24,21 @@ pub fn superelement_record(case: &Case, stage: &CondensedHousing) -> Result<Supe
     Coordinates { stage, reduction: None }.record(case)
 }
 
+impl CondenseResult {
+    /// The superelement of `superelement.npz`: that of the whole interface, or on the modes of it that the case asks for.
+    ///
+    /// # Errors
+    /// As [`superelement_record`].
+    pub fn record(&self, case: &Case) -> Result<SuperelementRecord, ComputeError> {
+        let reduction = self.interface.as_ref().map(|interface| &interface.reduction);
+        Coordinates { stage: &self.stage, reduction }.record(case)
+    }
+}
+
 /// What the coordinates of a record are: those of the condensed housing, or modes of its interface, with the way back to that.
-pub(crate) struct Coordinates<'a> {
-    pub(crate) stage: &'a CondensedHousing,
-    pub(crate) reduction: Option<&'a InterfaceReduction>,
+struct Coordinates<'a> {
+    stage: &'a CondensedHousing,
+    reduction: Option<&'a InterfaceReduction>,
 }
 
 impl Coordinates<'_> {
@@ -56,7 +68,7 @@ impl Coordinates<'_> {
     ///
     /// # Errors
     /// As [`superelement_record`].
-    pub(crate) fn record(&self, case: &Case) -> Result<SuperelementRecord, ComputeError> {
+    fn record(&self, case: &Case) -> Result<SuperelementRecord, ComputeError> {
         let (stage, element) = (self.stage, self.element());
         let row = |sensor: &Sensor| {
             let row = self.row(&Place::new(stage.bodies(), sensor.into())?);

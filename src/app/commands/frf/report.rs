@@ -4,6 +4,7 @@ use super::compute::FrfResult;
 use super::full::FullDamping;
 use super::reduced::{FrfHousing, TransferPath};
 use crate::app::case::{Case, Purpose};
+use crate::app::commands::computed::Computed;
 use crate::app::commands::parts::{self, HousingSize, signed_report};
 use crate::app::error::ComputeError;
 use crate::fe::reduction::ResponseEstimate;
@@ -15,6 +16,12 @@ use faer::c64;
 
 /// Modes listed of those that carry a path.
 const LISTED: usize = 8;
+
+impl Computed for FrfResult {
+    fn report(&self, case: &Case, command: &str) -> Result<Report, ComputeError> {
+        frf_report(case, self, command)
+    }
+}
 
 /// Composes the report; `command` is the line that made it.
 ///

@@ -3,7 +3,7 @@
 use super::{FrfResult, FullDamping, RankedPath};
 use crate::fe::reduction::frf::ModeShare;
 use schemars::JsonSchema;
-use serde::Serialize;
+use serde::{Serialize, Serializer};
 
 /// Transfer paths.
 #[derive(Debug, Clone, Serialize, JsonSchema)]
@@ -99,5 +99,11 @@ impl FrfResult {
             warnings: &self.doubts,
             ranking: &self.ranking,
         }
+    }
+}
+
+impl Serialize for FrfResult {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        self.summary().serialize(serializer)
     }
 }

@@ -89,7 +89,8 @@ impl ModesResult {
     }
 
     /// Frequencies and shapes as other programs read them; the rings' nodes stand after those of the mesh.
-    pub(crate) fn mode_shapes(&self) -> ModeShapes {
+    #[must_use]
+    pub fn mode_shapes(&self) -> ModeShapes {
         mode_shapes(&self.survey, self.mesh_and_model())
     }
 

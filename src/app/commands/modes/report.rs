@@ -5,6 +5,7 @@ use super::compute::{ModesResult, Reading};
 use super::shape_view::shape_view;
 use super::tables;
 use crate::app::case::{Case, Purpose};
+use crate::app::commands::computed::Computed;
 use crate::app::commands::parts::{self, ExpectedMode};
 use crate::app::error::ComputeError;
 use crate::app::scene::{bearing_setup, race_contacts};
@@ -20,6 +21,12 @@ const DRAWN: usize = 8;
 
 /// What is to be known of loaded modes in a housing, so that nobody takes the reduction for an effect of the load.
 const CONDENSED: &str = "Loaded modes are those of a model with its housing condensed, which alone raises frequencies a little: plummer condense --compare-full says how much. A smaller difference between the columns says nothing of the load.";
+
+impl Computed for ModesResult {
+    fn report(&self, case: &Case, command: &str) -> Result<Report, ComputeError> {
+        modes_report(case, self, command)
+    }
+}
 
 /// Composes the report; `command` is the line that made it.
 ///

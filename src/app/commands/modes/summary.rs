@@ -6,7 +6,7 @@ use crate::fe::modal::{EnergyShares, MassProperties, Mechanisms, ModalBasis};
 use crate::numerics::linalg::DenseMatrix;
 use crate::system::{LoadedModes, LoadedPass};
 use schemars::JsonSchema;
-use serde::Serialize;
+use serde::{Serialize, Serializer};
 
 /// The modes of a case.
 #[derive(Debug, Clone, Serialize, JsonSchema)]
@@ -86,4 +86,10 @@ impl ModesResult {
 
 fn rows(a: &DenseMatrix) -> Vec<Vec<f64>> {
     (0..a.nrows()).map(|row| a.row(row).iter().copied().collect()).collect()
+}
+
+impl Serialize for ModesResult {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        self.summary().serialize(serializer)
+    }
 }

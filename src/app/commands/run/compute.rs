@@ -81,7 +81,7 @@ pub(crate) fn explain_run(case: &Case, watch: &impl Watch) -> Result<(ModelChoic
 ///
 /// # Errors
 /// As [`compute_run`], [`ComputeError::Interrupted`] and what `checkpoints` returns.
-pub(crate) fn compute_kept_run<C: Checkpoints>(
+pub fn compute_kept_run<C: Checkpoints>(
     case: &Case,
     watch: &impl Watch,
     checkpoints: &mut C,

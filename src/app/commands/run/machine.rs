@@ -113,7 +113,8 @@ impl Machine {
     }
 
     /// Speed of the shaft.
-    pub(crate) fn shaft_speed(&self) -> &SpeedProfile {
+    #[must_use]
+    pub fn shaft_speed(&self) -> &SpeedProfile {
         match self {
             Self::InPlane(machine) => machine.scene.setup.cage.shaft(),
             Self::InSpace(machine) => machine.scene.setup.bearings[0].cage.shaft(),

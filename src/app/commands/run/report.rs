@@ -10,6 +10,7 @@ use crate::app::case::{Case, Purpose};
 use crate::app::commands::analyze::report::{capital, verdict_headlines, window_section};
 use crate::app::commands::analyze::table::{counts, verdicts};
 use crate::app::commands::analyze::{AnalysisRow, SHOWN_WINDOWS};
+use crate::app::commands::computed::Computed;
 use crate::app::commands::parts;
 use crate::app::commands::parts::ExpectedMode;
 use crate::app::error::ComputeError;
@@ -20,6 +21,12 @@ use crate::system::Column;
 
 /// Unloaded modes listed beside the loaded ones.
 const LISTED_MODES: usize = 20;
+
+impl<R: Recording> Computed for RunResult<R> {
+    fn report(&self, case: &Case, command: &str) -> Result<Report, ComputeError> {
+        run_report(case, self, command)
+    }
+}
 
 /// Composes the report; `command` is the line that made it.
 ///

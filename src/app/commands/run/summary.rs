@@ -10,7 +10,7 @@ use crate::system::{
     BallLoad, BallsInertia, BearingInPlace, EnergyBalance, Equilibrium, SpatialBallLoad, SpatialEquilibrium,
 };
 use schemars::JsonSchema;
-use serde::Serialize;
+use serde::{Serialize, Serializer};
 
 /// A simulated run.
 #[derive(Debug, Clone, Serialize, JsonSchema)]
@@ -324,5 +324,11 @@ impl EquilibriumSummary {
             shaft_stiffness_n_per_m: equilibrium.shaft_stiffness,
             iterations: equilibrium.iterations,
         }
+    }
+}
+
+impl<R: Recording> Serialize for RunResult<R> {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        self.summary().serialize(serializer)
     }
 }

@@ -1,5 +1,6 @@
 //! Job scripts of a sweep or a data set for Slurm: an array of tasks, and the job that merges their results.
 
+use std::ffi::OsString;
 use std::path::Path;
 
 use super::outputs::plain;
@@ -19,15 +20,17 @@ pub struct SlurmScripts {
 /// Writes the scripts of a study in `folder`, by the command's word, with so many tasks. Task k takes points k, k + tasks, k + 2 tasks, ...: a task that
 /// is submitted again goes on where it was stopped.
 ///
-/// `program` and `folder` are absolute paths which all machines of the cluster see; `threads` the cores of a task.
+/// `program` are the words that call it, `folder` an absolute path; all machines of the cluster see both. `threads` are the cores of a
+/// task.
 pub(crate) fn slurm_scripts(
     command: &str,
-    program: &Path,
+    program: &[OsString],
     folder: &Path,
     tasks: usize,
     threads: usize,
 ) -> SlurmScripts {
-    let [program_word, folder_word] = [program, folder].map(|path| shell_word(&path.to_string_lossy()));
+    let words: Vec<String> = program.iter().map(|word| shell_word(&word.to_string_lossy())).collect();
+    let (program_word, folder_word) = (words.join(" "), shell_word(&folder.to_string_lossy()));
     let name = folder.file_name().map_or_else(|| command.into(), |name| name.to_string_lossy());
     let name = plain(&name, |letter| letter.is_ascii_alphanumeric() || "_-.".contains(letter));
     let array = format!(
@@ -62,6 +65,7 @@ pub(crate) fn slurm_scripts(
 
 #[cfg(test)]
 mod tests {
+    use std::ffi::OsString;
     use std::path::Path;
 
     use super::slurm_scripts;
@@ -69,7 +73,7 @@ mod tests {
     #[test]
     fn names_with_anything_in_them_stay_one_word() {
         let folder = Path::new("/data/it's; rm -rf ~/a $(b)");
-        let scripts = slurm_scripts("sweep", Path::new("/opt/plummer"), folder, 12, 2);
+        let scripts = slurm_scripts("sweep", &["/opt/py thon", "-m", "plummer"].map(OsString::from), folder, 12, 2);
         assert!(scripts.array.contains("#SBATCH --array=1-12\n"));
         assert!(scripts.array.contains("#SBATCH --cpus-per-task=2\n"));
         let word = r"'/data/it'\''s; rm -rf ~/a $(b)'";
@@ -77,6 +81,6 @@ mod tests {
             assert!(script.contains(word), "{script}");
         }
         assert!(scripts.array.contains("#SBATCH --job-name=a___b_\n"));
-        assert!(scripts.array.contains("sweep --task \"$SLURM_ARRAY_TASK_ID/12\""));
+        assert!(scripts.array.contains("exec srun '/opt/py thon' -m plummer sweep --task \"$SLURM_ARRAY_TASK_ID/12\""));
     }
 }

@@ -19,9 +19,11 @@ mod numbers;
 mod sections;
 #[cfg(test)]
 mod tests;
+mod write;
 
 pub(super) use build::Allowance;
 pub(super) use cursor::{quoted, short};
 pub(super) use numbers::NodeIndex;
+pub use write::{Cells, EntityGroup, MeshParts};
 
 use super::MshError;

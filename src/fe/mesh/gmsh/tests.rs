@@ -11,6 +11,7 @@ mod mshio_agrees;
 mod repeats;
 mod rules;
 mod versions;
+mod write;
 
 /// gmsh's own hexahedra, pyramids and tetrahedra of second order, complete and not: as many as it made, and the volume of
 /// the box of 20 x 10 x 10 mm by their own node order.

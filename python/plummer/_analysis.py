@@ -1,0 +1,264 @@
+"""Diagnosis of a signal."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from functools import cached_property
+from typing import TYPE_CHECKING, Any, NamedTuple, Union
+
+from . import _plummer
+from ._errors import InputError
+from ._progress import Progress, Stages
+
+if TYPE_CHECKING:
+    import pandas
+    from matplotlib.axes import Axes
+    from numpy.typing import ArrayLike
+
+    from ._run import Signal
+
+#: A constant speed, Hz; or times (s) with the speed then (Hz), straight between.
+Speed = Union[float, Sequence[tuple[float, float]]]
+
+
+class FaultVerdict(NamedTuple):
+    """What a window of a signal says of a part."""
+
+    #: "outer race", "inner race", "ball" or "cage"
+    part: str
+    #: "named": a fault is indicated; "not seen" or "not enough evidence"
+    conclusion: str
+    #: probability that a sound bearing's signal has such lines; ``None`` where it was not judged
+    false_alarm: float | None
+    #: strength of the lines, dB over the floor; ``None`` without lines
+    strength_db: float | None
+    #: order of the lines, per turn of the shaft; ``None`` without lines
+    order: float | None
+    #: in a sentence
+    why: str
+
+
+class WindowVerdict(NamedTuple):
+    """What a window of a signal says."""
+
+    #: sensor or channel
+    sensor: str
+    #: label of the bearing; empty for the only one
+    bearing: str
+    #: start, s
+    from_s: float
+    #: end, s
+    to_s: float
+    #: mean speed of the shaft, Hz
+    speed_hz: float
+    #: root mean square, in the signal's unit
+    rms: float
+    #: each part
+    faults: list[FaultVerdict]
+    #: why nothing was judged; ``None``: it was
+    not_judged: str | None
+
+    @property
+    def indicated(self) -> list[str]:
+        """The parts that are indicated."""
+        return [fault.part for fault in self.faults if fault.conclusion == "named"]
+
+
+def verdicts(windows: list[dict[str, Any]]) -> list[WindowVerdict]:
+    """What windows of a JSON file say."""
+    found = []
+    for window in windows:
+        verdict = window["verdict"]
+        faults = [
+            FaultVerdict(
+                fault["fault"],
+                fault["conclusion"],
+                fault["false_alarm"],
+                fault["strength_db"],
+                fault["order"],
+                fault["why"],
+            )
+            for fault in verdict.get("faults", [])
+        ]
+        found.append(
+            WindowVerdict(
+                window["sensor"],
+                window.get("bearing") or "",
+                window["from"],
+                window["to"],
+                window["speed_hz"],
+                window["rms"],
+                faults,
+                None if "faults" in verdict else verdict["reason"],
+            )
+        )
+    return found
+
+
+def rows(verdicts: list[WindowVerdict]) -> list[dict[str, Any]]:
+    """A row for each part in each window."""
+    return [
+        {**{key: value for key, value in window._asdict().items() if key not in ("faults", "not_judged")}, **fault._asdict()}
+        for window in verdicts
+        for fault in window.faults
+    ]
+
+
+class Analysis(Sequence[WindowVerdict]):
+    """An analysed signal: the verdicts of its windows."""
+
+    def __init__(self, computed: _plummer.Analysis) -> None:
+        self._computed = computed
+
+    @cached_property
+    def windows(self) -> list[dict[str, Any]]:
+        """What analysis.json says of each window."""
+        return self._computed.windows()
+
+    @cached_property
+    def verdicts(self) -> list[WindowVerdict]:
+        """What each window says of each part."""
+        return verdicts(self.windows)
+
+    def __getitem__(self, window: Any) -> Any:
+        return self.verdicts[window]
+
+    def __len__(self) -> int:
+        return len(self.verdicts)
+
+    @property
+    def indicated(self) -> list[str]:
+        """The parts that are indicated in a window, each once."""
+        return list(dict.fromkeys(part for window in self.verdicts for part in window.indicated))
+
+    def to_dataframe(self) -> pandas.DataFrame:
+        """A row for each part in each window."""
+        import pandas
+
+        return pandas.DataFrame(rows(self.verdicts))
+
+    def plot(self, window: int = 0, *, ax: Axes | None = None) -> Axes:
+        """The spectrum of a window's envelope, with the lines of the bearing's parts."""
+        import matplotlib.pyplot as plt
+
+        ax = ax or plt.figure().add_subplot()
+        frequency_hz, amplitude = self._computed.spectra()[window]
+        found = self.windows[window]
+        lines = [(line["fault"], line["expected_order"] * found["speed_hz"]) for line in found["fault_lines"]]
+        top = 1.2 * max([hz for _, hz in lines], default=float(frequency_hz[-1]))
+        shown = frequency_hz <= top
+        ax.plot(frequency_hz[shown], amplitude[shown], linewidth=0.8)
+        colours = {part: f"C{place + 1}" for place, part in enumerate(dict.fromkeys(part for part, _ in lines))}
+        for part, hz in lines:
+            ax.axvline(hz, color=colours[part], linestyle=":", label=part)
+        labels = dict(zip(ax.get_legend_handles_labels()[1], ax.get_legend_handles_labels()[0]))
+        ax.legend(labels.values(), labels.keys())
+        ax.set(xlabel="frequency (Hz)", ylabel=f"envelope ({found['unit'] or 'unit of the signal'})")
+        return ax
+
+    def _repr_html_(self) -> str:
+        try:
+            table: str = self.to_dataframe().to_html(index=False)
+        except ImportError:
+            return f"<pre>{self!r}</pre>"
+        return table
+
+    def __repr__(self) -> str:
+        return f"<plummer.Analysis: {len(self)} windows, indicated: {', '.join(self.indicated) or 'nothing'}>"
+
+
+def analyze(
+    x: ArrayLike | Signal,
+    *,
+    speed_hz: Speed,
+    rate_hz: float | None = None,
+    bearing: str | None = None,
+    balls: int | None = None,
+    ball_diameter: float | None = None,
+    pitch_diameter: float | None = None,
+    orders: Mapping[str, float] | None = None,
+    contact_angle_deg: float = 0.0,
+    geometry_error: float = 0.01,
+    windows_s: Sequence[tuple[float, float]] = (),
+    high_pass_hz: float | None = None,
+    band_hz: tuple[float, float] | str | None = None,
+    whiten: bool = False,
+    start_s: float = 0.0,
+    unit: str = "",
+    channel: str = "signal",
+    progress: Progress = None,
+) -> Analysis:
+    """Which part of a bearing a signal indicates, as ``plummer analyze`` says it.
+
+    Args:
+        x: samples [samples], evenly in time; or a signal of a run, whose rate and unit it has.
+        speed_hz: speed of the shaft, Hz; or times (s) with the speed then.
+        rate_hz: sampling rate, Hz.
+        bearing: name in the catalogue, such as ``"6205"``.
+        balls: number of balls, with ``ball_diameter`` and ``pitch_diameter`` in one unit, in the place of ``bearing``.
+        orders: events per turn, some of ``outer``, ``inner``, ``ball`` and ``cage``, in the place of ``bearing``.
+        contact_angle_deg: contact angle, degrees.
+        geometry_error: how far orders may be off, relative, 0 to 0.1.
+        windows_s: windows from, to (s); none: all of the signal.
+        high_pass_hz: corner of the high-pass before the envelope, Hz.
+        band_hz: band before the envelope, Hz, or ``"kurtogram"``, in the place of ``high_pass_hz``.
+        whiten: shows the spectrum of the whitened signal's squared envelope.
+        start_s: time of the first sample, s.
+        unit: unit of the samples.
+        channel: name of the signal.
+        progress: ``True`` for a bar; or what is called as tqdm is.
+
+    Raises:
+        InputError: no bearing, a window outside the signal, a filter beyond half the sampling rate.
+
+    >>> import numpy as np, plummer
+    >>> time = np.arange(24000) / 12000
+    >>> strikes = np.exp(-800 * (time % (1 / 107.36))) * np.sin(2 * np.pi * 3000 * (time % (1 / 107.36)))
+    >>> signal = strikes + 0.05 * np.random.default_rng(1).standard_normal(time.size)
+    >>> plummer.analyze(signal, rate_hz=12000, bearing="6205", speed_hz=29.95).indicated
+    ['outer race']
+    """
+    import numpy as np
+
+    from ._run import Signal
+
+    if isinstance(x, Signal):
+        rate_hz, unit, start_s = rate_hz or x.rate_hz, unit or x.unit, start_s or float(x.time_s[0])
+        channel = x.name if channel == "signal" else channel
+    if rate_hz is None:
+        raise InputError("rate_hz: found nothing, expected the sampling rate, Hz")
+    geometry = (balls, ball_diameter, pitch_diameter)
+    given = [name is not None for name in (bearing, orders)] + [any(value is not None for value in geometry)]
+    if sum(given) != 1 or (given[2] and None in geometry):
+        raise InputError(
+            "bearing: expected one of bearing, orders, or balls with ball_diameter and pitch_diameter",
+            'write bearing="6205", or orders={"outer": 3.58, "inner": 5.42}',
+        )
+    known: Any = bearing if bearing is not None else geometry
+    if orders is not None:
+        names = ("outer", "inner", "ball", "cage")
+        unknown = [name for name in orders if name not in names]
+        if unknown:
+            raise InputError(f"orders: found {unknown[0]!r}, expected some of {', '.join(names)}")
+        known = tuple(orders.get(name) for name in names)
+    values = np.ascontiguousarray(x, dtype=float)
+    if values.ndim != 1:
+        raise InputError(f"signal: found an array of shape {values.shape}, expected one of one dimension")
+    kurtogram = band_hz == "kurtogram"
+    asked = {
+        "rate_hz": float(rate_hz),
+        "start_s": start_s,
+        "unit": unit,
+        "channel": channel,
+        "bearing": known,
+        "contact_angle_deg": contact_angle_deg,
+        "geometry_error": geometry_error,
+        "speed_hz": [(0.0, float(speed_hz))] if isinstance(speed_hz, (int, float)) else list(speed_hz),
+        "windows_s": list(windows_s),
+        "high_pass_hz": high_pass_hz,
+        "band_hz": None if kurtogram else band_hz,
+        "kurtogram": kurtogram,
+        "whiten": whiten,
+    }
+    with Stages(progress) as stages:
+        return Analysis(_plummer.analyze(values, asked, stages.told))

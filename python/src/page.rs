@@ -1,0 +1,28 @@
+//! What all results have: the content of the command's JSON file, and the report.
+
+use crate::{errors, values};
+use plummer::app::commands::result::VERSION;
+use plummer::prelude::{Case, Computed};
+use pyo3::prelude::*;
+use pyo3::types::PyDict;
+
+/// The content of `COMMAND.json` but for what only a process has: times, threads, files.
+pub(crate) fn summary<'py>(
+    py: Python<'py>,
+    command: &str,
+    case: &Case,
+    result: &impl Computed,
+) -> PyResult<Bound<'py, PyDict>> {
+    let summary = PyDict::new(py);
+    summary.set_item("plummer", VERSION)?;
+    summary.set_item("command", command)?;
+    summary.set_item("case", case.source.path.to_string_lossy())?;
+    summary.set_item("set", &case.source.set)?;
+    summary.update(values::dict(py, result)?.as_mapping())?;
+    Ok(summary)
+}
+
+/// The report as one page of HTML.
+pub(crate) fn html(py: Python<'_>, command: &str, case: &Case, result: &impl Computed) -> PyResult<String> {
+    result.page(case, &format!("case.{command}()")).map_err(|error| errors::of(py, error))
+}
