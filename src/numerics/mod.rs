@@ -6,6 +6,7 @@
 //! - [`ode`]: a second-order system as an integrator sees it, and the integrators;
 //! - [`series`]: evenly sampled signals, their statistics and decimation;
 //! - [`Watch`]: where a computation tells how far it is;
+//! - `random`: random numbers by counter;
 //! - [`units`]: units of a file, turned into SI; `lanes`: four numbers side by side.
 //!
 //! Read [`linalg::SparseMatrix`] first, then [`ode::SecondOrderSystem`].
@@ -14,6 +15,7 @@ mod brief;
 pub(crate) mod lanes;
 pub mod linalg;
 pub mod ode;
+pub(crate) mod random;
 pub mod series;
 pub mod units;
 mod watch;

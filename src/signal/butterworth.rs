@@ -112,6 +112,14 @@ impl Butterworth {
         Ok(series.with_values(values)?)
     }
 
+    /// The causal filter from rest, for samples that come one at a time every `step_s` seconds.
+    ///
+    /// # Errors
+    /// As [`zero_phase`](Self::zero_phase).
+    pub(crate) fn streaming(&self, step_s: f64) -> Result<Streaming, SignalError> {
+        Ok(Streaming::of(self.sections(step_s)?))
+    }
+
     /// Second-order sections for samples every `step_s` seconds, those with poles near the unit circle last.
     ///
     /// The low-pass of cut-off 1 rad/s has its poles at p = -exp(i pi m / (2 order)); they go to w_c p (low-pass), w_c / p
@@ -186,8 +194,38 @@ impl Butterworth {
     }
 }
 
+/// A filter that takes one sample at a time.
+#[derive(Debug, Clone)]
+pub(crate) struct Streaming(Vec<(Section, [f64; 2])>);
+
+impl Streaming {
+    fn of(sections: Vec<Section>) -> Self {
+        Self(sections.into_iter().map(|section| (section, [0.0; 2])).collect())
+    }
+
+    /// A mass on a spring with a damping ratio below 1, gain 1 far below its frequency: how a sensor on its mount follows, from rest. The
+    /// frequency is below half the sampling rate, Hz; the bilinear transform keeps it.
+    pub(crate) fn resonance(hz: f64, damping: f64, step_s: f64) -> Self {
+        let warped = (PI * hz * step_s).tan();
+        let pole = warped * Complex::new(-damping, (1.0 - damping * damping).sqrt());
+        Self::of(vec![Section::new([pole, pole.conj()], [1.0, 2.0, 1.0], warped * warped)])
+    }
+
+    /// A mode that passes with gain 1 at its frequency and falls to both sides; as [`resonance`](Self::resonance).
+    pub(crate) fn mode(hz: f64, damping: f64, step_s: f64) -> Self {
+        let warped = (PI * hz * step_s).tan();
+        let pole = warped * Complex::new(-damping, (1.0 - damping * damping).sqrt());
+        Self::of(vec![Section::new([pole, pole.conj()], [1.0, 0.0, -1.0], 2.0 * damping * warped)])
+    }
+
+    /// The next output.
+    pub(crate) fn push(&mut self, sample: f64) -> f64 {
+        self.0.iter_mut().fold(sample, |x, (section, state)| section.step(x, state))
+    }
+}
+
 /// (b_0 + b_1 / z + b_2 / z^2) / (a_0 + a_1 / z + a_2 / z^2), a_0 = 1.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 struct Section {
     b: [f64; 3],
     a: [f64; 3],
@@ -205,13 +243,18 @@ impl Section {
     fn run(&self, values: &mut [f64], held: f64) {
         let ([b_0, b_1, b_2], [_, a_1, a_2]) = (self.b, self.a);
         let settled = held * (b_0 + b_1 + b_2) / (1.0 + a_1 + a_2);
-        let (mut first, mut second) = (settled - b_0 * held, b_2 * held - a_2 * settled);
+        let mut state = [settled - b_0 * held, b_2 * held - a_2 * settled];
         for value in values {
-            let x = *value;
-            *value = b_0 * x + first;
-            first = b_1 * x - a_1 * *value + second;
-            second = b_2 * x - a_2 * *value;
+            *value = self.step(*value, &mut state);
         }
+    }
+
+    fn step(&self, x: f64, [first, second]: &mut [f64; 2]) -> f64 {
+        let ([b_0, b_1, b_2], [_, a_1, a_2]) = (self.b, self.a);
+        let y = b_0 * x + *first;
+        *first = b_1 * x - a_1 * y + *second;
+        *second = b_2 * x - a_2 * y;
+        y
     }
 }
 

@@ -29,6 +29,7 @@ mod white_spectrum;
 mod whitening;
 
 pub use band_limit::{band_limit, band_limit_edge_s, band_limit_from_rest, relative_difference};
+pub(crate) use butterworth::Streaming;
 pub use butterworth::{Butterworth, DEFAULT_ORDER, FilterBand};
 pub(crate) use envelope::usual_high_pass_hz;
 pub use envelope::{EnvelopeAnalysis, EnvelopeSpectrum, envelope, envelope_spectrum, squared};

@@ -5,6 +5,7 @@ mod case_schema;
 mod command_line;
 mod common;
 mod condense_scenes;
+mod dataset;
 mod estimates;
 mod examples;
 mod export;

@@ -11,7 +11,7 @@ use serde_json::{Value, json};
 use super::common::{errors, plummer, scratch};
 use super::validator::Validator;
 
-const ALL: [&str; 14] = [
+const ALL: [&str; 15] = [
     "modes",
     "condense",
     "frf",
@@ -21,6 +21,7 @@ const ALL: [&str; 14] = [
     "chart",
     "stability",
     "sweep",
+    "dataset",
     "verify",
     "inspect",
     "init",
@@ -72,6 +73,7 @@ fn what_commands_print_is_valid() {
         (at("examples/housings/ring.toml"), at("examples/scenes/impact.toml"), at("examples/tadina2011/beam.toml"));
     let mesh = at("meshes/ring_6_9.msh");
     let small = ["ring.nodes=12", "accuracy.band_hz=[0,160000]", "transient.end=0.13e-3", "transient.ensemble.runs=2"];
+    let two = at("examples/datasets/two_machines.toml");
     let smooth = at("examples/scenes/smooth.toml");
     let mut chart = vec!["chart", &smooth, "--quick", "--only", "accuracy"];
     chart.extend(small.iter().flat_map(|set| ["--set", set]));
@@ -89,6 +91,7 @@ fn what_commands_print_is_valid() {
         ("chart", chart),
         ("sweep", [&["sweep", &beam], &vary[..]].concat()),
         ("sweep", [&["sweep", &beam, "--slurm", "--out", "out/jobs"], &vary[..]].concat()),
+        ("dataset", vec!["dataset", &two, "--count", "1", "--set", "recorder.duration_s=0.05"]),
         ("verify", vec!["verify"]),
         ("inspect", vec!["inspect", &mesh, "--length-unit", "mm"]),
         ("init", vec!["init", &mesh, "--length-unit", "mm"]),

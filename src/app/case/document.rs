@@ -1,9 +1,11 @@
 //! A case file as text and arguments; from there to values and to places.
 
+use super::check::BrokenRule;
 use super::decode::Fault;
 use super::error::CaseError;
 use super::tree::{Mark, Node, parse_path};
 use super::{named_bearing, set};
+use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
 use std::path::PathBuf;
 
@@ -20,28 +22,53 @@ pub struct Source {
 }
 
 /// A source read into a tree, arguments applied and a named bearing filled in.
-pub(super) struct Document<'a> {
+pub(in crate::app) struct Document<'a> {
     source: &'a Source,
     pub(super) root: Node,
 }
 
 impl<'a> Document<'a> {
-    /// Reads the text and applies the arguments in order.
+    /// Reads the text of a case and applies the arguments in order.
     pub(super) fn read(source: &'a Source) -> Result<Self, CaseError> {
+        let mut document = Self::changed(source, named_bearing::as_table)?;
+        let filled = named_bearing::fill(&mut document.root);
+        filled.map_err(|fault| document.error(fault))?;
+        Ok(document)
+    }
+
+    /// The same of a file that is no case, which has no named bearings.
+    ///
+    /// # Errors
+    /// [`CaseError`] for text that is no TOML and arguments that are none.
+    pub(in crate::app) fn of_other(source: &'a Source) -> Result<Self, CaseError> {
+        Self::changed(source, |_| ())
+    }
+
+    fn changed(source: &'a Source, after_each: impl Fn(&mut Node)) -> Result<Self, CaseError> {
         let mut root = Node::read(&source.text).map_err(|fault| {
             let place = format!("{}:{}", source.path.display(), fault.line);
             CaseError::at(place, format!("not valid TOML: {}", fault.message))
         })?;
-        named_bearing::as_table(&mut root);
+        after_each(&mut root);
         for (index, argument) in source.set.iter().enumerate() {
             set::apply(&mut root, argument, Mark::Set(index))
                 .map_err(|rule| CaseError::at(set::told_argument(argument), &rule).with_help(rule.help()))?;
-            named_bearing::as_table(&mut root);
+            after_each(&mut root);
         }
-        let mut document = Self { source, root };
-        let filled = named_bearing::fill(&mut document.root);
-        filled.map_err(|fault| document.error(fault))?;
-        Ok(document)
+        Ok(Self { source, root })
+    }
+
+    /// Its values as a type.
+    ///
+    /// # Errors
+    /// [`CaseError`] with the place and the key of the first that does not fit.
+    pub(in crate::app) fn decode<T: DeserializeOwned>(&self) -> Result<T, CaseError> {
+        T::deserialize(&self.root).map_err(|fault| self.error(fault))
+    }
+
+    /// A rule that a value breaks, with its place.
+    pub(in crate::app) fn broken(&self, broken: &BrokenRule) -> CaseError {
+        CaseError::broken(self.place(&broken.key), broken)
     }
 
     /// Returns where the value at a key path was written, or where the nearest table around it was.

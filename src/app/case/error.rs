@@ -22,6 +22,11 @@ impl CaseError {
         Self { message, help: None, valid: Vec::new() }
     }
 
+    /// A file that could not be read.
+    pub(in crate::app) fn unread(message: String) -> Self {
+        Self::new(message)
+    }
+
     /// What is wrong at a place: file and line, an argument, or the file.
     pub(super) fn at(place: impl Display, what: impl Display) -> Self {
         Self::new(format!("{place}: {what}"))

@@ -34,9 +34,9 @@ impl ReportDetails {
     pub(crate) fn of_arguments(set: &[String]) -> Result<Option<Self>, CaseError> {
         let source = Source { set: set.to_vec(), ..Source::default() };
         let document = Document::read(&source)?;
-        let read = WithoutCase::deserialize(&document.root).map_err(|fault| document.error(fault))?;
+        let read: WithoutCase = document.decode()?;
         let checked = read.report.iter().try_for_each(report);
-        checked.map_err(|broken| CaseError::broken(document.place(&broken.key), &broken))?;
+        checked.map_err(|broken| document.broken(&broken))?;
         Ok(read.report)
     }
 }
@@ -69,7 +69,7 @@ impl Case {
 
     fn without_variants(source: Source) -> Result<Self, CaseError> {
         let document = Document::read(&source)?;
-        let mut case = Self::deserialize(&document.root).map_err(|fault| document.error(fault))?;
+        let mut case: Self = document.decode()?;
         for built_in in BUILT_IN_MATERIALS {
             case.materials.entry(built_in.name.to_owned()).or_insert(built_in.as_given());
         }
@@ -78,7 +78,7 @@ impl Case {
                 *path = folder.join(&path);
             }
         }
-        case.validate().map_err(|broken| CaseError::broken(document.place(&broken.key), &broken))?;
+        case.validate().map_err(|broken| document.broken(&broken))?;
         case.source = source;
         if case.title.is_empty() {
             case.title = case.name();

@@ -15,14 +15,19 @@ impl Case {
     /// Returns the JSON Schema (draft 07) of a case file as read from TOML, its paths not resolved.
     #[must_use]
     pub fn schema() -> Value {
-        let generator = SchemaSettings::draft07().into_generator();
-        let mut schema = generator.into_root_schema_for::<Self>().to_value();
-        tidy(&mut schema);
-        if let Some(root) = schema.as_object_mut() {
-            root.insert("title".to_owned(), "case file of plummer".into());
-        }
-        schema
+        file_schema::<Self>("case file of plummer")
     }
+}
+
+/// The JSON Schema (draft 07) of a TOML file with a title.
+pub(in crate::app) fn file_schema<T: JsonSchema>(title: &str) -> Value {
+    let generator = SchemaSettings::draft07().into_generator();
+    let mut schema = generator.into_root_schema_for::<T>().to_value();
+    tidy(&mut schema);
+    if let Some(root) = schema.as_object_mut() {
+        root.insert("title".to_owned(), title.into());
+    }
+    schema
 }
 
 /// One of these words.

@@ -21,7 +21,7 @@ pub(super) const CASE_DIGEST: &str = "case_digest";
 
 /// The results that commands write into a folder: of each the word W of W.json, what is there before it, and files beside its page,
 /// tables and figures.
-pub(super) const RESULTS: [(&str, &str, &[&str]); 10] = [
+pub(super) const RESULTS: [(&str, &str, &[&str]); 11] = [
     ("run", PARTIAL, &["signals.npz", "scalogram.npz"]),
     ("modes", "", &["modes.npz"]),
     ("condense", "", &["superelement.npz"]),
@@ -31,6 +31,7 @@ pub(super) const RESULTS: [(&str, &str, &[&str]); 10] = [
     ("stability", "", &["stability.svg", "resonance.svg"]),
     ("analysis", "", &["analysis.csv"]),
     ("sweep", "sweep/plan.json", &["sweep.csv", "sweep.npz"]),
+    ("manifest", "dataset/plan.json", &["manifest.csv"]),
     ("verify", "", &[]),
 ];
 

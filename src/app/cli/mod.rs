@@ -8,6 +8,7 @@ mod arguments;
 mod bearing;
 mod chart;
 mod condense;
+mod dataset;
 mod earlier_results;
 mod export;
 mod failure;
@@ -22,6 +23,7 @@ mod report;
 mod results;
 mod run;
 mod schema;
+mod share;
 mod shell;
 mod sweep;
 mod verify;
@@ -38,13 +40,15 @@ use clap::Parser;
 pub use analyze::{AnalyzeArguments, GivenOrders, GivenSpeed};
 pub use arguments::{Arguments, ChartPart, Command, ExportFormat, InitArguments, Options, ResultOf};
 use arguments::{typed, word};
+pub use dataset::DatasetArguments;
 use earlier_results::{left_in, lost_with, result_of};
 pub use failure::CliError;
 pub use output::{Outcome, OutputFolder};
 pub(crate) use output::{emit, write_atomic};
 pub use progress::Progress;
 use results::Job;
-pub use sweep::{Share, SweepArguments};
+pub use share::Share;
+pub use sweep::SweepArguments;
 
 use crate::app::case::{Case, Purpose};
 use crate::app::program;
@@ -159,9 +163,10 @@ pub(crate) fn execute(arguments: &Arguments, to: &mut impl Write) -> Result<(), 
         Command::Export { from, to } => export::export(from, *to, options),
         Command::Analyze(asked) => analyze::analyze(asked, options),
         Command::Sweep(asked) => sweep::sweep(asked, options),
+        Command::Dataset(asked) => dataset::dataset(asked, options),
         Command::Report { folder } => report::report(folder, options),
         Command::Verify { full } => verify::verify(*full, options),
-        Command::Schema { results } => return emit(to, &format!("{:#}", schema::schema(*results))),
+        Command::Schema { results, dataset } => return emit(to, &format!("{:#}", schema::schema(*results, *dataset))),
         Command::Init(asked) => init::init(asked, options),
         Command::Inspect { mesh, length_unit, density, straighten } => {
             inspect::inspect(mesh, *length_unit, *density, *straighten, options)

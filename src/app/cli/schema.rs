@@ -21,12 +21,13 @@ use crate::app::commands::modes::ModesSummary;
 use crate::app::commands::result::CaseResult;
 use crate::app::commands::run::{ExplainSummary, RunSummary};
 use crate::app::studies::chart::{ChartResult, Stability};
+use crate::app::studies::dataset::{DatasetSpec, Manifest};
 use crate::app::studies::sweep::{ScriptsSummary, SweepSummary, TaskSummary};
 use crate::app::verification::VerifyResult;
 
-/// The JSON Schema of a result, without one that of the case file.
-pub(super) fn schema(results: Option<ResultOf>) -> Value {
-    results.map_or_else(Case::schema, ResultOf::schema)
+/// The JSON Schema of a result, without one that of the case file or, with `dataset`, of a data set's specification.
+pub(super) fn schema(results: Option<ResultOf>, dataset: bool) -> Value {
+    results.map_or_else(if dataset { DatasetSpec::schema } else { Case::schema }, ResultOf::schema)
 }
 
 /// Either of two results.
@@ -62,6 +63,7 @@ impl ResultOf {
             Self::Sweep => {
                 of::<Either<CaseResult<'_, SweepSummary<'_>>, Either<TaskSummary, ScriptsSummary<'_>>>>(self)
             }
+            Self::Dataset => of::<Either<Manifest<'_>, Either<TaskSummary, ScriptsSummary<'_>>>>(self),
             Self::Verify => of::<VerifyResult<'_>>(self),
             Self::Inspect => of::<InspectResult<'_>>(self),
             Self::Init => of::<Either<DraftResult<'_>, Either<CatalogueResult, MaterialsResult>>>(self),

@@ -13,12 +13,13 @@ use crate::fe::reduction::frf::ModalDamping;
 use crate::numerics::Watch;
 use crate::numerics::ode::{Method, State};
 use crate::system::{BallsInertia, BearingSetup, CoupledSystem, Equilibrium, ModeSelection, StaticCondition};
+use std::sync::Arc;
 
 /// Structure and bearing of a case and the equilibrium that a simulation starts from.
 #[derive(Debug)]
 pub struct Scene {
     /// The linear model with all its modes.
-    pub stage: CoupledStructure,
+    pub stage: Arc<CoupledStructure>,
     /// The bearing.
     pub setup: BearingSetup,
     /// Its contacts by Hertz from geometry and materials, whichever stiffness is in use.
@@ -77,7 +78,8 @@ impl Scene {
     ///
     /// # Errors
     /// As [`build`](Self::build).
-    pub fn around(stage: CoupledStructure, run: RunCase<'_>) -> Result<Self, ComputeError> {
+    pub fn around(stage: impl Into<Arc<CoupledStructure>>, run: RunCase<'_>) -> Result<Self, ComputeError> {
+        let stage = stage.into();
         let RunCase { case, bearing, .. } = run;
         let setup = setup_of(case, bearing, run.shaft)?;
         let contacts = contacts_of(case, bearing)?;

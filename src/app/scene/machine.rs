@@ -24,6 +24,7 @@ use crate::system::{
     with_static_vectors,
 };
 use nalgebra::Vector2;
+use std::sync::Arc;
 
 /// Rounds of cage and contact angles, which make each other at high speed, and the change of the cage's order that ends them, relative.
 const ROUNDS: usize = 20;
@@ -33,7 +34,7 @@ const SETTLED: f64 = 1e-6;
 #[derive(Debug, Clone)]
 pub struct MachineScene {
     /// The linear model with its modes.
-    pub stage: CoupledStructure,
+    pub stage: Arc<CoupledStructure>,
     /// Shaft, loads and bearings.
     pub setup: SpatialSetup,
     /// Orders of each bearing without slip, at the contact angles in force at the highest speed of the run.
@@ -71,20 +72,32 @@ impl MachineScene {
 
     fn with_modes(
         run: &SpatialCase<'_>,
-        [start, end]: [f64; 2],
+        span: [f64; 2],
         count: usize,
         watch: &impl Watch,
     ) -> Result<Self, ComputeError> {
+        refuse_structural_damping(run.case)?;
+        // before the housing is condensed
+        run.seats.iter().try_for_each(|seat| refuse_plane_keys(run.case, seat))?;
+        let stage = CoupledStructure::around_rings(run.case, count, watch)?;
+        watch.stage("equilibrium");
+        Self::around(stage.into(), run, span)
+    }
+
+    /// The scene of a case around rings and housing that are built already, of a case that has the same.
+    ///
+    /// # Errors
+    /// As [`build`](Self::build).
+    pub(crate) fn around(
+        stage: Arc<CoupledStructure>,
+        run: &SpatialCase<'_>,
+        [start, end]: [f64; 2],
+    ) -> Result<Self, ComputeError> {
         let case = run.case;
-        refuse_structural_damping(case)?;
-        for seat in &run.seats {
-            refuse_plane_keys(case, seat)?;
-        }
-        let stage = CoupledStructure::around_rings(case, count, watch)?;
+        run.seats.iter().try_for_each(|seat| refuse_plane_keys(case, seat))?;
         if let Some(imported) = &stage.bodies.imported {
             imported.refuse_structural_damping()?;
         }
-        watch.stage("equilibrium");
         let frames: Vec<RingFrame> = stage.bodies.rings.seats().iter().map(|seat| seat.frame).collect();
         let places = places(case, &frames, &run.seats)?;
         let mut setup = setup_of(run, &places)?;

@@ -3,6 +3,7 @@
 //! Housing and rings of a case in full (nothing condensed): the bodies, and stiffness and mass over their free degrees of freedom.
 
 use super::condensed::{CondensedHousing, basis_choice};
+use super::damping::refuse_structural_damping;
 use super::housing::AssembledHousing;
 use super::in_full::RingsInHousing;
 use super::kept::{Kept, OnRings};
@@ -81,6 +82,26 @@ impl CoupledStructure {
     /// [`ComputeError`] of the stages that it goes through.
     pub fn build(case: &Case, watch: &impl Watch) -> Result<Option<Self>, ComputeError> {
         case.has_rings().then(|| Self::around_rings(case, needed_modes(case), watch)).transpose()
+    }
+
+    /// What [`for_run`](Self::for_run) follows from, for cases whose files are the same: those with the same text have the same structure.
+    pub(crate) fn values(case: &Case) -> Option<String> {
+        let seats = case.seats();
+        let rings: Vec<_> =
+            seats.iter().map(|seat| (seat.ring, seat.bearing.map(|own| (&own.name, own.outer_race_radius)))).collect();
+        let gravity = case.shaft.as_ref().map(|shaft| shaft.gravity);
+        let basis =
+            (&case.condense, case.band_or_default(), case.target(), case.transient.is_some(), needed_modes(case));
+        serde_json::to_string(&(&case.housing, rings, &case.materials, &case.sensors, gravity, basis)).ok()
+    }
+
+    /// Rings and housing of a run.
+    ///
+    /// # Errors
+    /// As [`build`](Self::build), and for structural damping, which a run does not know.
+    pub(crate) fn for_run(case: &Case, watch: &impl Watch) -> Result<Self, ComputeError> {
+        refuse_structural_damping(case)?;
+        Self::around_rings(case, needed_modes(case), watch)
     }
 
     /// The same of a case with rings, with at least so many modes, if it has them.

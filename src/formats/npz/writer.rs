@@ -263,6 +263,7 @@ macro_rules! element {
     };
 }
 
+element!(f32, "<f4");
 element!(f64, "<f8");
 element!(i32, "<i4");
 element!(i64, "<i8");

@@ -66,6 +66,20 @@ Files:
   sweep.json   the axes; state, exit code and message of each point
   report.html  plots over what was varied, points that are not done, the table";
 
+pub(super) const DATASET_EXAMPLE: &str = "\
+Examples: 40 signals of two machines; going on after a stop, with more; on a cluster
+  plummer dataset examples/datasets/two_machines.toml --count 40 --out out/signals
+  plummer dataset examples/datasets/two_machines.toml --count 400 --out out/signals --resume
+  plummer dataset examples/datasets/two_machines.toml --out out/signals --slurm=8 && sh out/signals/dataset/submit.sh
+
+Every number follows from the seed and the signal's own number: any number of threads or tasks, and any stop, gives the same bytes. A
+larger --count begins with the same signals. A signal that cannot be computed has its reason in the manifest, and the exit code is 1.
+
+Files:
+  signals-NNNNN.npz  signals (float32, a row each, m/s^2); label, split, machine, specimen, speed_hz, bpfo_hz, bpfi_hz, bsf_hz, ftf_hz
+  manifest.json      what was drawn for each signal, its model with the estimated error, digests of files and inputs
+  manifest.csv       the same as a table, a row for each signal";
+
 pub(super) const COMPLETIONS_EXAMPLE: &str = "\
 Example: for bash, from the next shell on
   plummer completions bash > ~/.local/share/bash-completion/completions/plummer";

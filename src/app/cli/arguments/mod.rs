@@ -13,7 +13,7 @@ mod schema;
 #[cfg(test)]
 mod tests;
 
-use super::{AnalyzeArguments, CliError, SweepArguments};
+use super::{AnalyzeArguments, CliError, DatasetArguments, SweepArguments};
 use crate::app::case::replaced_argument;
 use crate::app::commands::run::unfinished::CHECKPOINT_S;
 use crate::numerics::units::LengthUnit;
@@ -21,8 +21,8 @@ use bearing::{BEARING_EXAMPLE, revolutions};
 use chart::{CHART_EXAMPLE, budget};
 use clap::{Parser, Subcommand, ValueEnum};
 use examples::{
-    ANALYZE_EXAMPLE, COMPLETIONS_EXAMPLE, CONDENSE_EXAMPLE, FRF_EXAMPLE, MAN_EXAMPLE, MODES_EXAMPLE, REPORT_EXAMPLE,
-    SWEEP_EXAMPLE, VERIFY_EXAMPLE,
+    ANALYZE_EXAMPLE, COMPLETIONS_EXAMPLE, CONDENSE_EXAMPLE, DATASET_EXAMPLE, FRF_EXAMPLE, MAN_EXAMPLE, MODES_EXAMPLE,
+    REPORT_EXAMPLE, SWEEP_EXAMPLE, VERIFY_EXAMPLE,
 };
 use export::EXPORT_EXAMPLE;
 use init::INIT_EXAMPLE;
@@ -155,6 +155,9 @@ pub enum Command {
     /// Run many variants of a case into one table, on all cores or on a cluster
     #[command(after_help = SWEEP_EXAMPLE)]
     Sweep(Box<SweepArguments>),
+    /// Compute labelled vibration signals of bearings drawn from distributions, for machine learning
+    #[command(after_help = DATASET_EXAMPLE)]
+    Dataset(Box<DatasetArguments>),
     /// Write matrices and mode shapes in the formats of other programs
     #[command(after_help = EXPORT_EXAMPLE)]
     Export {
@@ -195,6 +198,9 @@ pub enum Command {
         /// Print the schema of what this command writes as COMMAND.json and prints with --json
         #[arg(long, value_name = "COMMAND", value_enum)]
         results: Option<ResultOf>,
+        /// Print the schema of specifications for `plummer dataset`
+        #[arg(long, conflicts_with = "results")]
+        dataset: bool,
     },
 }
 
@@ -205,7 +211,7 @@ pub(super) fn word(value: impl ValueEnum) -> String {
 
 impl Command {
     /// Returns the command's word, which is also its result file's name: `run` writes `run.json`; `analyze` alone writes
-    /// `analysis.json`.
+    /// `analysis.json`, and `dataset` `manifest.json`.
     #[must_use]
     pub(crate) fn name(&self) -> &'static str {
         match self {
@@ -218,6 +224,7 @@ impl Command {
             Self::Analyze(_) => "analyze",
             Self::Inspect { .. } => "inspect",
             Self::Sweep(_) => "sweep",
+            Self::Dataset(_) => "dataset",
             Self::Completions { .. } => "completions",
             Self::Man => "man",
             Self::Init(_) => "init",
@@ -247,6 +254,7 @@ impl Command {
             Self::Chart { only: None, .. } => &["chart", "stability"],
             Self::Chart { only: Some(ChartPart::Stability), .. } => &["stability"],
             Self::Analyze(_) => &["analysis"],
+            Self::Dataset(_) => &["manifest"],
             other => &[other.name()],
         };
         names.iter().map(|name| format!("{name}.json")).collect()
@@ -282,6 +290,8 @@ fn without_case(command: &Command) -> Option<&'static str> {
     match command {
         Command::Sweep(asked) if asked.task.is_some() => Some("sweep --task"),
         Command::Sweep(asked) if asked.merge => Some("sweep --merge"),
+        Command::Dataset(asked) if asked.task.is_some() => Some("dataset --task"),
+        Command::Dataset(asked) if asked.merge => Some("dataset --merge"),
         Command::Run { .. }
         | Command::Modes { .. }
         | Command::Condense { .. }
@@ -290,7 +300,8 @@ fn without_case(command: &Command) -> Option<&'static str> {
         | Command::Chart { .. }
         | Command::Export { .. }
         | Command::Analyze(_)
-        | Command::Sweep(_) => None,
+        | Command::Sweep(_)
+        | Command::Dataset(_) => None,
         other => Some(other.name()),
     }
 }

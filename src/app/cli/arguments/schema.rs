@@ -32,6 +32,8 @@ pub enum ResultOf {
     Stability,
     /// sweep.json, and what --task and --slurm print
     Sweep,
+    /// manifest.json
+    Dataset,
     /// verify.json
     Verify,
     /// inspect.json

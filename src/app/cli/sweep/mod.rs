@@ -6,7 +6,9 @@ mod points;
 use std::fs;
 use std::path::Path;
 
-pub use arguments::{Share, SweepArguments};
+pub use arguments::SweepArguments;
+
+use super::share::Share;
 
 use super::earlier_results::{refuse_foreign, result_of};
 use super::output::json;
@@ -26,7 +28,7 @@ const POINTS: &str = "sweep";
 /// The plan's file in it.
 const PLAN: &str = "plan.json";
 /// Most tasks of a job array unless told otherwise: Slurm takes 1000 by default (`MaxArraySize`).
-const MOST_TASKS: usize = 1000;
+pub(super) const MOST_TASKS: usize = 1000;
 
 /// Plans a sweep and computes its points, or writes job scripts for them, or does a task of such a job, or merges what is there.
 ///
@@ -262,25 +264,35 @@ fn verdict(result: &SweepResult) -> Result<(), CliError> {
 }
 
 fn write_scripts(plan: &Plan, folder: &OutputFolder, tasks: usize, options: &Options) -> Result<Outcome, CliError> {
+    job_scripts("sweep", (plan.count(), "points"), folder, tasks, options)
+}
+
+/// Writes the job scripts of a study, by its command's word, which is also the name of its folder in that of the results.
+pub(super) fn job_scripts(
+    command: &'static str,
+    (count, what): (usize, &str),
+    folder: &OutputFolder,
+    tasks: usize,
+    options: &Options,
+) -> Result<Outcome, CliError> {
     let absolute = |path: &Path| std::path::absolute(path).map_err(ComputeError::io(path));
     let program = points::program()?;
     let threads = options.threads.map_or(1, std::num::NonZeroUsize::get);
-    let scripts = slurm_scripts(&program.call, &absolute(&folder.path)?, tasks, threads);
-    folder.make_below(Path::new(POINTS))?;
-    let write = |name: &str, text: &str| folder.write(&format!("{POINTS}/{name}"), text.as_bytes());
+    let scripts = slurm_scripts(command, &program.call, &absolute(&folder.path)?, tasks, threads);
+    folder.make_below(Path::new(command))?;
+    let write = |name: &str, text: &str| folder.write(&format!("{command}/{name}"), text.as_bytes());
     let written = vec![
         write("array.sbatch", &scripts.array)?,
         write("merge.sbatch", &scripts.merge)?,
         write("submit.sh", &scripts.submit)?,
     ];
-    let submit = folder.path.join(POINTS).join("submit.sh");
+    let submit = folder.path.join(command).join("submit.sh");
     Ok(Outcome {
         summary: format!(
-            "{} points in {tasks} tasks; submit them by: sh {}",
-            plan.count(),
+            "{count} {what} in {tasks} tasks; submit them by: sh {}",
             shell_word(&submit.to_string_lossy())
         ),
-        result: json(&ScriptsSummary { command: "sweep", points: plan.count(), tasks, scripts: &written })?,
+        result: json(&ScriptsSummary { command, points: count, tasks, scripts: &written })?,
         written,
         verdict: Ok(()),
     })

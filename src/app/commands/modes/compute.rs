@@ -19,6 +19,7 @@ use crate::numerics::{Unwatched, Watch};
 use crate::system::{BearingSetup, Equilibrium, LoadedModes, LoadedPass, StaticCondition, Statics};
 use schemars::JsonSchema;
 use serde::Serialize;
+use std::sync::Arc;
 
 /// One reading of a case: the case itself or one of its variants.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, JsonSchema)]
@@ -153,7 +154,7 @@ fn own_modes(case: &Case, watch: &impl Watch) -> Result<ModesResult, ComputeErro
             watch.stage("linearise");
             loaded = Some(scene.loaded_modes()?);
             fixed_interface_modes = Some(scene.stage.fixed_interface_modes);
-            scene.stage.bodies
+            Arc::unwrap_or_clone(scene.stage).bodies
         }
         Linearised::InPlane(setup) => {
             let stage = CoupledStructure::around_rings(case, needed_modes(case), watch)?;
@@ -246,7 +247,7 @@ fn variant_reading(case: &Case) -> Result<Option<Reading>, ComputeError> {
         Linearised::InSpace(spatial) => {
             let scene = MachineScene::build(&spatial, [start_time(case); 2], &Unwatched)?;
             let loaded = scene.loaded_modes()?;
-            (scene.stage.bodies, Some(loaded))
+            (Arc::unwrap_or_clone(scene.stage).bodies, Some(loaded))
         }
         Linearised::InPlane(setup) => {
             let stage = CoupledStructure::around_rings(case, needed_modes(case), &Unwatched)?;

@@ -9,11 +9,14 @@ use crate::app::case::{AskedRun, Case, RunCase, SpatialCase, Transient};
 use crate::app::commands::analyze::{AnalysisSettings, WindowAnalysis, analyse};
 use crate::app::commands::run::choice::{Horizon, ModelChoice};
 use crate::app::error::ComputeError;
-use crate::app::scene::{MachineScene, Scene};
+use crate::app::scene::{CoupledStructure, MachineScene, Scene};
+use crate::bearing::Cage;
+use crate::bearing::kinematics::DefectOrders;
 use crate::numerics::Watch;
 use crate::report::significant;
 use crate::signal::diagnosis::Kinematics;
-use crate::system::{EnergyBalance, LoadedModes, RunRecord, Statics};
+use crate::system::{BearingSetup, EnergyBalance, LoadedModes, RunRecord, Statics};
+use std::sync::Arc;
 
 /// Samples up to which the balance of energy is taken unless the case says otherwise: it takes 4300 to 9700 instructions a sample
 /// (callgrind, seven modes with residual), 0.2 s of the wall's clock then.
@@ -140,6 +143,47 @@ fn run_in_space<C: Checkpoints>(
     Ok(RunResult::analysed(case, machine, BearingModel::in_space(spatial), choice, horizon, simulation))
 }
 
+/// The signals of a run alone: without what its page says of rest, modes and verdicts.
+pub(crate) struct SteppedRun<R> {
+    /// The model, and why it is this one.
+    pub(crate) choice: ModelChoice,
+    /// The signals.
+    pub(crate) simulation: Simulation<R>,
+    /// Of each bearing its cage, the number of its balls and the orders of pure rolling.
+    pub(crate) bearings: Vec<(Cage, u32, DefectOrders)>,
+}
+
+/// Steps a run around rings and housing that are built already, of a case that has the same.
+///
+/// # Errors
+/// As [`compute_run`].
+pub(crate) fn step_run<C: Checkpoints>(
+    run: &AskedRun<'_>,
+    stage: Arc<CoupledStructure>,
+    checkpoints: &mut C,
+) -> Result<SteppedRun<C::Record>, ComputeError> {
+    match run {
+        AskedRun::InPlane(run) => {
+            let mut scene = Scene::around(stage, *run)?;
+            let choice = ModelChoice::of_case(*run, &scene)?;
+            scene.setup.balls_inertia = choice.model.balls_inertia;
+            let span = span(run.transient);
+            let simulation = Simulation::kept_from_rest(&scene, &choice.model, span, false, checkpoints, |_| ())?;
+            let BearingSetup { cage, geometry, .. } = scene.setup;
+            Ok(SteppedRun { choice, simulation, bearings: vec![(cage, geometry.balls(), geometry.orders())] })
+        }
+        AskedRun::InSpace(spatial, asked) => {
+            let scene = MachineScene::around(stage, spatial, [asked.start, asked.end])?;
+            let choice = ModelChoice::in_space(spatial.case, asked, &scene)?;
+            let (system, state) = scene.at_rest(&choice.model, scene.start)?;
+            let simulation = Simulation::kept(system, state, &choice.model, span(asked), false, checkpoints, |_| ())?;
+            let own = scene.setup.bearings.into_iter().zip(scene.orders);
+            let bearings = own.map(|(own, orders)| (own.cage, own.bearing.geometry().balls(), orders)).collect();
+            Ok(SteppedRun { choice, simulation, bearings })
+        }
+    }
+}
+
 fn span(asked: &Transient) -> Span {
     Span { duration: asked.end - asked.start, output_hz: asked.output_hz }
 }
@@ -154,8 +198,6 @@ fn takes_energy(case: &Case, asked: &Transient, choice: &ModelChoice) -> bool {
 const ENERGY_GAP: f64 = 0.01;
 /// What is exchanged where nothing moves but by round-off is less, J: at rest 1e-17 were.
 const LEAST_EXCHANGED_J: f64 = 1e-12;
-/// Signals below this are taken for rest, m/s^2: no accelerometer for machines resolves less.
-const REST: f64 = 1e-3;
 
 fn energy_warning(energy: Option<&EnergyBalance>) -> Option<String> {
     let gap = energy.filter(|energy| energy.exchanged_j > LEAST_EXCHANGED_J)?.error();
@@ -170,17 +212,8 @@ fn energy_warning(energy: Option<&EnergyBalance>) -> Option<String> {
 impl<R: Recording> RunResult<R> {
     /// Why the signals cannot be trusted, if they cannot: a warning has the figures.
     pub(crate) fn distrust(&self) -> Option<&'static str> {
-        if self.choice.stable_s.is_some() {
-            Some("the step is longer than small motions at rest bear")
-        } else if energy_warning(self.simulation.energy.as_ref()).is_some() {
-            Some("the energy balance does not close")
-        } else if self.choice.measured.is_some_and(|found| found.error >= 1.0 && found.rms > REST) {
-            Some("on a stretch a finer run differs by as much as they are")
-        } else if self.choice.lacks_vectors() && self.choice.measured.is_none_or(|found| found.rms > REST) {
-            Some("the condensed housing has so few vectors that their estimated error is as large as they are")
-        } else {
-            None
-        }
+        let unbalanced = energy_warning(self.simulation.energy.as_ref()).map(|_| "the energy balance does not close");
+        unbalanced.or_else(|| self.choice.distrust())
     }
 
     /// What the signals of all sensors say of all bearings, in words.

@@ -20,8 +20,8 @@ mod simulation_tests;
 pub(crate) mod summary;
 pub mod unfinished;
 
-pub(crate) use compute::explain_run;
 pub use compute::{RunResult, compute_kept_run, compute_run};
+pub(crate) use compute::{explain_run, step_run};
 pub(crate) use machine::alike;
 pub use machine::{BearingModel, Machine, PlaneMachine, SpatialMachine};
 pub use recording::{Checkpoints, InMemory, Recording, RunRequest, TakePiece};

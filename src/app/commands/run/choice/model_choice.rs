@@ -10,6 +10,9 @@ use serde::Serialize;
 pub(crate) const SUPERELEMENT: &str = "superelement";
 pub(crate) const CONDENSATION: &str = "condensation";
 
+/// Signals below this are taken for rest, m/s^2: no accelerometer for machines resolves less.
+const REST: f64 = 1e-3;
+
 /// A model, and why it is this one.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ModelChoice {
@@ -56,6 +59,19 @@ impl ModelChoice {
             )
         });
         unstable.into_iter().chain(self.missed()).collect()
+    }
+
+    /// Why signals by this model cannot be trusted, if they cannot: a warning has the figures.
+    pub(crate) fn distrust(&self) -> Option<&'static str> {
+        if self.stable_s.is_some() {
+            Some("the step is longer than small motions at rest bear")
+        } else if self.measured.is_some_and(|found| found.error >= 1.0 && found.rms > REST) {
+            Some("on a stretch a finer run differs by as much as they are")
+        } else if self.lacks_vectors() && self.measured.is_none_or(|found| found.rms > REST) {
+            Some("the condensed housing has so few vectors that their estimated error is as large as they are")
+        } else {
+            None
+        }
     }
 
     /// Whether a superelement or the condensed housing lacks so many vectors that its part of the error is as large as the signals.

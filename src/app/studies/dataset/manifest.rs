@@ -1,0 +1,243 @@
+//! What a data set's files say of its signals.
+
+use super::drawn::Signal;
+use super::hierarchy::Label;
+use super::identity::DatasetIdentity;
+use super::plan::DatasetPlan;
+use crate::app::commands::run::choice::ModelChoice;
+use crate::app::error::ComputeError;
+use crate::files::FileDigest;
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+use serde_json::Value;
+use std::collections::{BTreeMap, BTreeSet};
+
+/// One signal.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct SignalRecord {
+    /// Its number, from 0.
+    pub signal: usize,
+    /// The file with its samples; null of one that could not be computed.
+    pub file: Option<String>,
+    /// Its row there, from 0.
+    pub row: Option<usize>,
+    /// Why it could not be computed or cannot be trusted; null of others.
+    pub reason: Option<String>,
+    /// "none", "outer", "inner", "ball" or "several".
+    pub label: String,
+    /// "train", "validation" or "test".
+    pub split: String,
+    /// Number of its machine, from 0.
+    pub machine: usize,
+    /// The machine's case, as the specification names it.
+    pub case: String,
+    /// Number of its bearing, from 0.
+    pub specimen: usize,
+    /// Mean speed of the shaft in the record, Hz.
+    pub speed_hz: Option<f64>,
+    /// How far the speed changes in the record, Hz.
+    pub speed_spread_hz: Option<f64>,
+    /// Balls that pass a point of the outer race (BPFO), Hz: the mean with the cage's slip.
+    pub bpfo_hz: Option<f64>,
+    /// Balls that pass a point of the inner race (BPFI), Hz: the mean with the cage's slip.
+    pub bpfi_hz: Option<f64>,
+    /// Spin of a ball (BSF), Hz; damage of a ball strikes twice as often.
+    pub bsf_hz: Option<f64>,
+    /// Turns of the cage (FTF), Hz: the mean with its slip.
+    pub ftf_hz: Option<f64>,
+    /// RMS of the samples, m/s^2.
+    pub rms: Option<f64>,
+    /// RMS before noise and background, m/s^2.
+    pub clean_rms: Option<f64>,
+    /// Share of the samples that the converter could not hold.
+    pub clipped: Option<f64>,
+    /// Modes of the model.
+    pub modes: Option<usize>,
+    /// Its method.
+    pub method: Option<String>,
+    /// Its largest step, s.
+    pub step_s: Option<f64>,
+    /// Its estimated error relative to the RMS, in the band up to half of the sampling rate, while nearby solutions stay together.
+    pub estimated_error: Option<f64>,
+    /// SHA-256 of the samples, little-endian.
+    pub sha256: Option<String>,
+    /// Damage, as `bearing.defects` of a case has it.
+    pub faults: Vec<Value>,
+    /// What was drawn, by its key.
+    pub drawn: BTreeMap<String, Value>,
+}
+
+/// A file of signals.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub(crate) struct ShardRecord {
+    /// Its name and the SHA-256 of its bytes.
+    pub(crate) file: FileDigest,
+    /// The signals that belong to it, those that could not be computed too.
+    pub(crate) signals: Vec<SignalRecord>,
+}
+
+/// `manifest.json`.
+#[derive(Debug, Clone, Serialize, JsonSchema)]
+pub struct Manifest<'a> {
+    /// Version of the program.
+    pub plummer: &'a str,
+    /// The command.
+    pub command: &'static str,
+    /// What the data set is about.
+    pub title: &'a str,
+    /// SHA-256 of the specification.
+    pub spec_sha256: &'a str,
+    /// `KEY=VALUE` arguments.
+    pub set: &'a [String],
+    /// Cases, meshes and the background by their SHA-256.
+    pub inputs: &'a [FileDigest],
+    /// The seed.
+    pub seed: u64,
+    /// Number of signals.
+    pub count: usize,
+    /// Sampling rate, Hz.
+    pub rate_hz: f64,
+    /// Samples of a signal.
+    pub samples: usize,
+    /// Unit of the samples.
+    pub unit: &'static str,
+    /// Words of the labels; arrays have their places here.
+    pub labels: Vec<&'static str>,
+    /// Files of signals by their SHA-256.
+    pub files: Vec<FileDigest>,
+    /// All signals in order.
+    pub signals: Vec<SignalRecord>,
+}
+
+impl SignalRecord {
+    pub(super) fn of(plan: &DatasetPlan, signal: &Signal) -> Self {
+        Self {
+            signal: signal.number,
+            file: None,
+            row: None,
+            reason: None,
+            label: signal.specimen.label.name().to_owned(),
+            split: DatasetPlan::part(signal.specimen).to_owned(),
+            machine: signal.specimen.machine,
+            case: plan.case_name(signal.entry),
+            specimen: signal.specimen_number,
+            speed_hz: None,
+            speed_spread_hz: None,
+            bpfo_hz: None,
+            bpfi_hz: None,
+            bsf_hz: None,
+            ftf_hz: None,
+            rms: None,
+            clean_rms: None,
+            clipped: None,
+            modes: None,
+            method: None,
+            step_s: None,
+            estimated_error: None,
+            sha256: None,
+            faults: signal.faults.clone(),
+            drawn: signal.drawn.clone(),
+        }
+    }
+
+    pub(super) fn model_of(&mut self, choice: &ModelChoice, modes: usize) {
+        self.modes = Some(modes);
+        self.method = Some(choice.model.method.name().to_owned());
+        self.step_s = Some(choice.model.step);
+        self.estimated_error = choice.estimated_error;
+    }
+}
+
+impl<'a> Manifest<'a> {
+    pub(super) fn of(plan: &'a DatasetPlan, shards: Vec<ShardRecord>) -> Self {
+        let DatasetIdentity { plummer, spec_sha256, set, files } = &plan.identity;
+        let (files_of_signals, signals): (Vec<_>, Vec<_>) =
+            shards.into_iter().map(|shard| (shard.file, shard.signals)).unzip();
+        Self {
+            plummer,
+            command: "dataset",
+            title: &plan.spec.title,
+            spec_sha256,
+            set,
+            inputs: files,
+            seed: plan.spec.seed,
+            count: plan.count,
+            rate_hz: plan.spec.recorder.rate_hz,
+            samples: plan.spec.recorder.samples()[0],
+            unit: "m/s^2",
+            labels: Label::ALL.map(Label::name).to_vec(),
+            files: files_of_signals,
+            signals: signals.concat(),
+        }
+    }
+
+    /// The signals as a table: a column for each key, those of damage as `fault.0.depth`.
+    ///
+    /// # Errors
+    /// [`ComputeError::Failed`] for what has no text.
+    pub(crate) fn to_csv(&self) -> Result<String, ComputeError> {
+        let rows: Result<Vec<BTreeMap<String, Value>>, _> = self.signals.iter().map(flat).collect();
+        let rows = rows.map_err(|error| ComputeError::wrong(format!("manifest.csv: {error}")))?;
+        let first: Vec<String> = FIXED.iter().map(|name| (*name).to_owned()).collect();
+        let others: BTreeSet<&String> =
+            rows.iter().flat_map(BTreeMap::keys).filter(|key| !first.contains(key)).collect();
+        let head: Vec<String> = first.iter().chain(others).cloned().collect();
+        let failed = |error: csv::Error| ComputeError::wrong(format!("manifest.csv: {error}"));
+        let mut csv = csv::Writer::from_writer(Vec::new());
+        csv.write_record(&head).map_err(failed)?;
+        for row in rows {
+            let cell = |key: &String| match row.get(key) {
+                None | Some(Value::Null) => String::new(),
+                Some(Value::String(text)) => text.clone(),
+                Some(other) => other.to_string(),
+            };
+            csv.write_record(head.iter().map(cell)).map_err(failed)?;
+        }
+        let bytes = csv.into_inner().map_err(|error| ComputeError::wrong(format!("manifest.csv: {error}")))?;
+        Ok(String::from_utf8_lossy(&bytes).into_owned())
+    }
+}
+
+/// The first columns of the table.
+const FIXED: [&str; 23] = [
+    "signal",
+    "file",
+    "row",
+    "label",
+    "split",
+    "machine",
+    "case",
+    "specimen",
+    "reason",
+    "speed_hz",
+    "speed_spread_hz",
+    "bpfo_hz",
+    "bpfi_hz",
+    "bsf_hz",
+    "ftf_hz",
+    "rms",
+    "clean_rms",
+    "clipped",
+    "modes",
+    "method",
+    "step_s",
+    "estimated_error",
+    "sha256",
+];
+
+/// A signal's values under one name each.
+fn flat(signal: &SignalRecord) -> Result<BTreeMap<String, Value>, serde_json::Error> {
+    let Value::Object(mut values) = serde_json::to_value(signal)? else { return Ok(BTreeMap::new()) };
+    let mut row = BTreeMap::new();
+    if let Some(Value::Object(drawn)) = values.remove("drawn") {
+        row.extend(drawn);
+    }
+    if let Some(Value::Array(faults)) = values.remove("faults") {
+        for (place, fault) in faults.into_iter().enumerate() {
+            let Value::Object(fault) = fault else { continue };
+            row.extend(fault.into_iter().map(|(key, value)| (format!("fault.{place}.{key}"), value)));
+        }
+    }
+    row.extend(values);
+    Ok(row)
+}
