@@ -5,12 +5,13 @@ CASE := examples/tadina2011/outer-dent.toml
 WINDOWS := analysis.envelope=[{from=1.0,to=2.6},{from=2.3,to=2.4}]
 REPORT := out/outer-dent/report.html
 MDBOOK := $(firstword $(wildcard target/tools/bin/mdbook) mdbook)
-.PHONY: help setup demo machines test nightly figures meshes book docs bench bench-peers clean
+.PHONY: help setup demo machines test python nightly figures meshes book docs bench bench-peers clean
 
 help:
 	@echo "make demo    build, run the dented bearing and say where its report is"
 	@echo "make machines  a spindle and a motor in two bearings each, from their .geo to the verdict (needs gmsh)"
 	@echo "make test    all tests, documentation tests and examples"
+	@echo "make python  the Python package, built and tested in a clean environment"
 	@echo "make nightly  the tests that take hours, and the readers under libFuzzer"
 	@echo "make setup   install the system libraries that are missing"
 	@echo "make figures the figures of the documents"
@@ -47,6 +48,10 @@ test: setup
 	fi
 	cargo run --profile $(PROFILE) --example compare_integrators
 	cargo run --profile $(PROFILE) --example bending_lock
+
+python: setup
+	cargo build --profile $(PROFILE)
+	sh scripts/python.sh $(PROFILE)
 
 nightly: setup
 	sh scripts/nightly.sh
