@@ -26,6 +26,7 @@ except ImportError as error:  # pragma: no cover - a machine without ARPACK
 from ._analysis import Analysis, analyze
 from ._case import Case
 from ._condense import Coordinate, Superelement
+from ._dataset import Dataset, dataset
 from ._frf import Frf, TransferPath
 from ._mesh import Mesh
 from ._modes import Modes
@@ -38,6 +39,7 @@ __all__ = [
     "CaseError",
     "ComputationError",
     "Coordinate",
+    "Dataset",
     "Error",
     "FileError",
     "Frf",
@@ -53,6 +55,7 @@ __all__ = [
     "Superelement",
     "TransferPath",
     "analyze",
+    "dataset",
     "set_threads",
     "threads",
 ]
