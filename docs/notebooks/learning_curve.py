@@ -90,5 +90,5 @@ assert scores[-1][0] > 0.5  # four classes: chance is a quarter
 # %%
 figure, ax = plt.subplots()
 ax.errorbar(sizes, [mean for mean, _ in scores], [deviation for _, deviation in scores], fmt="o-")
-ax.set(xlabel="bearings to learn from", ylabel="right on other bearings", ylim=(0, 1), xscale="log")
+ax.set(xlabel="bearings to learn from", ylabel="right on other bearings", ylim=(0, 1))
 figure.savefig(OUT / "learning_curve.png")
