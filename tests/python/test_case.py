@@ -67,7 +67,7 @@ def test_a_copy_is_its_own() -> None:
 def test_a_dict_is_a_case() -> None:
     loaded = plummer.Case.load(RING).to_dict()
     housing = {**loaded["housing"], "mesh": Path(loaded["housing"]["mesh"]).resolve()}
-    table = {"title": "plate", "materials": loaded["materials"], "housing": housing, "modes": {"count": np.int64(6)}}
+    table = {"title": "plate", "materials": loaded["materials"], "housing": housing, "ring": None, "modes": {"count": np.int64(6)}}
     case = plummer.Case(table)
     frequencies = case.modes().frequencies_hz
     own = plummer.Case.load(RING, set={"modes": {"count": 6}}).modes().frequencies_hz
