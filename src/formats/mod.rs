@@ -31,6 +31,7 @@ pub mod measured;
 mod mode_shapes;
 pub mod npz;
 pub mod op4;
+mod parquet;
 mod read_modes;
 pub mod superelement;
 pub mod uff;
@@ -48,6 +49,7 @@ pub use measured::{MeasuredError, MeasuredSignal, SignalRequest, read_signals};
 pub use mode_shapes::ModeShapes;
 pub use npz::{NpzArray, NpzReader, NpzWriter, is_array_name, read_modes_npz, write_modes_npz, write_sparse_npz};
 pub use op4::{Op4Format, Op4Matrix, op4_from_bytes, read_op4, write_op4};
+pub(crate) use parquet::{ParquetColumn, ParquetValues, write_parquet};
 pub use read_modes::read_mode_shapes;
 pub(crate) use read_modes::read_mode_shapes_in;
 pub use superelement::{

@@ -101,9 +101,9 @@ mod tests {
         let first = |seed, place| Stream::new(seed, place).unit().to_bits();
         let places = [first(1, [0, 0, 0]), first(2, [0, 0, 0]), first(1 << 32, [0, 0, 0]), first(1, [1, 0, 0])];
         let more = [first(1, [0, 1, 0]), first(1, [0, 0, 1])];
-        let mut all = [&places[..], &more[..]].concat();
+        let mut all = [&places[..], &more[..], &[first(0, [0, 0, 0])]].concat();
         all.sort_unstable();
         all.dedup();
-        assert_eq!(all.len(), 6);
+        assert_eq!(all.len(), 7);
     }
 }

@@ -31,7 +31,7 @@ pub(super) const RESULTS: [(&str, &str, &[&str]); 11] = [
     ("stability", "", &["stability.svg", "resonance.svg"]),
     ("analysis", "", &["analysis.csv"]),
     ("sweep", "sweep/plan.json", &["sweep.csv", "sweep.npz"]),
-    ("manifest", "dataset/plan.json", &["manifest.csv"]),
+    ("manifest", "dataset/plan.json", &["manifest.csv", "manifest.parquet"]),
     ("verify", "", &[]),
 ];
 

@@ -78,7 +78,8 @@ larger --count begins with the same signals. A signal that cannot be computed ha
 Files:
   signals-NNNNN.npz  signals (float32, a row each, m/s^2); label, split, machine, specimen, speed_hz, bpfo_hz, bpfi_hz, bsf_hz, ftf_hz
   manifest.json      what was drawn for each signal, its model with the estimated error, digests of files and inputs
-  manifest.csv       the same as a table, a row for each signal";
+  manifest.csv       the same as a table, a row for each signal; manifest.parquet: the same for pandas and others
+                     (parquet = true in the specification: the signals too, signals-NNNNN.parquet)";
 
 pub(super) const COMPLETIONS_EXAMPLE: &str = "\
 Example: for bash, from the next shell on

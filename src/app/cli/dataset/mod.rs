@@ -12,6 +12,7 @@ use super::{CliError, Options, Outcome, OutputFolder, Progress, failure, typed, 
 use crate::app::error::ComputeError;
 use crate::app::studies::dataset::{DatasetIdentity, DatasetPlan, Label, Manifest, RECORDS, Structures, Work};
 use crate::app::studies::sweep::TaskSummary;
+use crate::formats::write_parquet;
 use crate::report::{Cell, Column, Table, significant};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
@@ -116,7 +117,9 @@ fn begin(folder: &OutputFolder, force: bool) -> Result<(), CliError> {
         for entry in fs::read_dir(&folder.path).into_iter().flatten().flatten() {
             let name = entry.file_name();
             let name = name.to_string_lossy();
-            if name.starts_with("signals-") && (name.ends_with(".npz") || name.ends_with(".npz.partial")) {
+            if name.starts_with("signals-")
+                && [".npz", ".parquet", ".partial"].iter().any(|ending| name.ends_with(ending))
+            {
                 fs::remove_file(entry.path()).map_err(ComputeError::io(&entry.path()))?;
             }
         }
@@ -224,14 +227,17 @@ fn merge(plan: &DatasetPlan, folder: &OutputFolder, pace: Option<Pace>) -> Resul
         let what = format!("{} of {} files are not there: {}{more}", missing.len(), plan.shards(), names.join(", "));
         CliError::failed(what).with_help("submit the job array again, or go on with --resume")
     })?;
-    let csv = folder.write("manifest.csv", manifest.to_csv()?.as_bytes())?;
+    let table = manifest.table()?;
+    let csv = folder.write("manifest.csv", table.to_csv()?.as_bytes())?;
+    let parquet = folder.path.join("manifest.parquet");
+    write_parquet(&parquet, &table.to_parquet())?;
     let (path, result) = folder.write_json("manifest.json", &manifest)?;
     let files = manifest.files.iter().map(|file| folder.path.join(&file.path));
     Ok(Outcome {
         summary: summary(&manifest, plan, pace),
         verdict: verdict(&manifest),
         result,
-        written: files.chain([csv, path]).collect(),
+        written: files.chain([csv, parquet, path]).collect(),
     })
 }
 

@@ -7,6 +7,7 @@ use super::plan::DatasetPlan;
 use crate::app::commands::run::choice::ModelChoice;
 use crate::app::error::ComputeError;
 use crate::files::FileDigest;
+use crate::formats::{ParquetColumn, ParquetValues};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
@@ -70,8 +71,8 @@ pub struct SignalRecord {
 /// A file of signals.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub(crate) struct ShardRecord {
-    /// Its name and the SHA-256 of its bytes.
-    pub(crate) file: FileDigest,
+    /// Its name and the SHA-256 of its bytes; that of the same as Parquet too, if it was asked for.
+    pub(crate) files: Vec<FileDigest>,
     /// The signals that belong to it, those that could not be computed too.
     pub(crate) signals: Vec<SignalRecord>,
 }
@@ -152,7 +153,7 @@ impl<'a> Manifest<'a> {
     pub(super) fn of(plan: &'a DatasetPlan, shards: Vec<ShardRecord>) -> Self {
         let DatasetIdentity { plummer, spec_sha256, set, files } = &plan.identity;
         let (files_of_signals, signals): (Vec<_>, Vec<_>) =
-            shards.into_iter().map(|shard| (shard.file, shard.signals)).unzip();
+            shards.into_iter().map(|shard| (shard.files, shard.signals)).unzip();
         Self {
             plummer,
             command: "dataset",
@@ -166,7 +167,7 @@ impl<'a> Manifest<'a> {
             samples: plan.spec.recorder.samples()[0],
             unit: "m/s^2",
             labels: Label::ALL.map(Label::name).to_vec(),
-            files: files_of_signals,
+            files: files_of_signals.concat(),
             signals: signals.concat(),
         }
     }
@@ -174,27 +175,67 @@ impl<'a> Manifest<'a> {
     /// The signals as a table: a column for each key, those of damage as `fault.0.depth`.
     ///
     /// # Errors
-    /// [`ComputeError::Failed`] for what has no text.
-    pub(crate) fn to_csv(&self) -> Result<String, ComputeError> {
+    /// [`ComputeError::Input`] for what has no text.
+    pub(crate) fn table(&self) -> Result<ManifestTable, ComputeError> {
         let rows: Result<Vec<BTreeMap<String, Value>>, _> = self.signals.iter().map(flat).collect();
-        let rows = rows.map_err(|error| ComputeError::wrong(format!("manifest.csv: {error}")))?;
-        let first: Vec<String> = FIXED.iter().map(|name| (*name).to_owned()).collect();
-        let others: BTreeSet<&String> =
-            rows.iter().flat_map(BTreeMap::keys).filter(|key| !first.contains(key)).collect();
-        let head: Vec<String> = first.iter().chain(others).cloned().collect();
-        let failed = |error: csv::Error| ComputeError::wrong(format!("manifest.csv: {error}"));
+        let rows = rows.map_err(|error| ComputeError::wrong(format!("manifest: {error}")))?;
+        let others: BTreeSet<&String> = rows.iter().flat_map(BTreeMap::keys).collect();
+        let others = others.into_iter().map(String::as_str).filter(|key| !FIXED.contains(key));
+        let names = FIXED.into_iter().chain(others);
+        let column = |name: &str| {
+            let values = rows.iter().map(|row| row.get(name).cloned().unwrap_or_default());
+            (name.to_owned(), values.collect())
+        };
+        Ok(ManifestTable(names.map(column).collect()))
+    }
+}
+
+/// The signals by columns: a name, and a value each, null where a signal has none.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct ManifestTable(Vec<(String, Vec<Value>)>);
+
+impl ManifestTable {
+    /// A line for each signal below one of names.
+    ///
+    /// # Errors
+    /// [`ComputeError::Input`] for what has no text.
+    pub(crate) fn to_csv(&self) -> Result<String, ComputeError> {
+        let failed = |error: &dyn std::fmt::Display| ComputeError::wrong(format!("manifest.csv: {error}"));
         let mut csv = csv::Writer::from_writer(Vec::new());
-        csv.write_record(&head).map_err(failed)?;
-        for row in rows {
-            let cell = |key: &String| match row.get(key) {
-                None | Some(Value::Null) => String::new(),
-                Some(Value::String(text)) => text.clone(),
-                Some(other) => other.to_string(),
-            };
-            csv.write_record(head.iter().map(cell)).map_err(failed)?;
+        csv.write_record(self.0.iter().map(|(name, _)| name)).map_err(|error| failed(&error))?;
+        for row in 0..self.0.first().map_or(0, |(_, values)| values.len()) {
+            let cells = self.0.iter().map(|(_, values)| text(&values[row]).unwrap_or_default());
+            csv.write_record(cells).map_err(|error| failed(&error))?;
         }
-        let bytes = csv.into_inner().map_err(|error| ComputeError::wrong(format!("manifest.csv: {error}")))?;
+        let bytes = csv.into_inner().map_err(|error| failed(&error))?;
         Ok(String::from_utf8_lossy(&bytes).into_owned())
+    }
+
+    /// Columns of whole numbers, of numbers, or of texts, by what all signals have there.
+    pub(crate) fn to_parquet(&self) -> Vec<ParquetColumn> {
+        let column = |(name, values): &(String, Vec<Value>)| {
+            let mut there = values.iter().filter(|value| !value.is_null()).peekable();
+            let values = match there.peek().is_some() {
+                true if there.clone().all(Value::is_i64) => {
+                    ParquetValues::Whole(values.iter().map(Value::as_i64).collect())
+                }
+                true if there.all(Value::is_number) => {
+                    ParquetValues::Numbers(values.iter().map(Value::as_f64).collect())
+                }
+                _ => ParquetValues::Texts(values.iter().map(text).collect()),
+            };
+            ParquetColumn { name: name.clone(), values }
+        };
+        self.0.iter().map(column).collect()
+    }
+}
+
+/// A value in a cell: a text as it is, others as JSON has them; `None` of none.
+fn text(value: &Value) -> Option<String> {
+    match value {
+        Value::Null => None,
+        Value::String(text) => Some(text.clone()),
+        other => Some(other.to_string()),
     }
 }
 

@@ -10,7 +10,7 @@ use super::plan::DatasetPlan;
 use super::spec::Split;
 use crate::app::error::ComputeError;
 use crate::files::{self, FileDigest, FileError, write_atomic};
-use crate::formats::{FormatError, NpzWriter};
+use crate::formats::{FormatError, NpzWriter, ParquetColumn, ParquetValues, write_parquet};
 use std::io::Write;
 use std::path::{Path, PathBuf};
 
@@ -23,6 +23,21 @@ impl DatasetPlan {
         format!("signals-{shard:05}.npz")
     }
 
+    /// Names of all its files.
+    fn file_names(&self, shard: usize) -> Vec<String> {
+        let name = Self::file_name(shard);
+        let parquet = self.spec.parquet.then(|| name.replace(".npz", ".parquet"));
+        std::iter::once(name).chain(parquet).collect()
+    }
+
+    fn digests(&self, folder: &Path, shard: usize) -> std::io::Result<Vec<FileDigest>> {
+        let digest = |name: String| {
+            let FileDigest { sha256, .. } = FileDigest::of_file(&folder.join(&name))?;
+            Ok(FileDigest { path: name.into(), sha256 })
+        };
+        self.file_names(shard).into_iter().map(digest).collect()
+    }
+
     fn record_path(folder: &Path, shard: usize) -> PathBuf {
         folder.join(RECORDS).join(format!("{shard:05}.json"))
     }
@@ -32,8 +47,8 @@ impl DatasetPlan {
         let record = files::read(&Self::record_path(folder, shard)).ok()?;
         let record: ShardRecord = serde_json::from_slice(&record).ok()?;
         let numbers = record.signals.iter().map(|signal| signal.signal);
-        let digest = FileDigest::of_file(&folder.join(Self::file_name(shard))).ok()?;
-        (numbers.eq(self.of_shard(shard)) && digest.sha256 == record.file.sha256).then_some(record)
+        let is_whole = numbers.eq(self.of_shard(shard)) && self.digests(folder, shard).ok()? == record.files;
+        is_whole.then_some(record)
     }
 
     /// Computes a shard and writes it into a folder, which has the one of the records.
@@ -55,9 +70,12 @@ impl DatasetPlan {
         }
         let path = folder.join(&name);
         self.write_arrays(&path, &computed)?;
-        let sha256 = FileDigest::of_file(&path).map_err(FileError::read(&path))?.sha256;
+        if let [_, parquet] = &self.file_names(shard)[..] {
+            write_parquet(&folder.join(parquet), &columns(&mut computed))?;
+        }
+        let files = self.digests(folder, shard).map_err(FileError::read(&path))?;
         let signals = computed.into_iter().map(|signal| signal.record).collect();
-        let record = ShardRecord { file: FileDigest { path: name.into(), sha256 }, signals };
+        let record = ShardRecord { files, signals };
         let path = Self::record_path(folder, shard);
         let text = serde_json::to_string_pretty(&record)
             .map_err(|error| ComputeError::wrong(format!("{}: {error}", path.display())))?;
@@ -103,4 +121,33 @@ impl DatasetPlan {
         let missing: Vec<usize> = missing.into_iter().filter_map(Result::err).collect();
         if missing.is_empty() { Ok(Manifest::of(self, there.into_iter().flatten().collect())) } else { Err(missing) }
     }
+}
+
+/// The signals that are there by columns, the samples last and taken out.
+fn columns(computed: &mut [Computed]) -> Vec<ParquetColumn> {
+    let taken = computed.iter_mut().filter_map(|signal| Some((&signal.record, signal.samples.take()?)));
+    let (records, samples): (Vec<&SignalRecord>, Vec<Vec<f32>>) = taken.unzip();
+    let whole = |value: fn(&SignalRecord) -> usize| {
+        ParquetValues::Whole(records.iter().map(|record| i64::try_from(value(record)).ok()).collect())
+    };
+    let text = |value: fn(&SignalRecord) -> &String| {
+        ParquetValues::Texts(records.iter().map(|record| Some(value(record).clone())).collect())
+    };
+    let number = |value: fn(&SignalRecord) -> Option<f64>| {
+        ParquetValues::Numbers(records.iter().map(|record| value(record)).collect())
+    };
+    let named = [
+        ("signal", whole(|record| record.signal)),
+        ("label", text(|record| &record.label)),
+        ("split", text(|record| &record.split)),
+        ("specimen", whole(|record| record.specimen)),
+        ("machine", whole(|record| record.machine)),
+        ("speed_hz", number(|record| record.speed_hz)),
+        ("bpfo_hz", number(|record| record.bpfo_hz)),
+        ("bpfi_hz", number(|record| record.bpfi_hz)),
+        ("bsf_hz", number(|record| record.bsf_hz)),
+        ("ftf_hz", number(|record| record.ftf_hz)),
+        ("samples", ParquetValues::Lists(samples)),
+    ];
+    named.map(|(name, values)| ParquetColumn { name: name.to_owned(), values }).into()
 }

@@ -33,6 +33,9 @@ pub(crate) struct DatasetSpec {
     /// Signals of a file; absent: 50, and no more than 64 MB.
     #[serde(default)]
     pub signals_per_file: Option<usize>,
+    /// Whether signals are written as Parquet too; the manifest is in any case.
+    #[serde(default)]
+    pub parquet: bool,
     /// What a specimen's signals are for.
     #[serde(default)]
     pub split: Split,
