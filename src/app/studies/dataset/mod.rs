@@ -1,6 +1,6 @@
 //! Labelled signals of bearings that are drawn from distributions.
 //!
-//! A specification comes in; shards of signals with a manifest go out. A [`DatasetPlan`] says of each signal what it is, from the seed and the
+//! A specification comes in; shards of signals with a manifest go out. A `DatasetPlan` says of each signal what it is, from the seed and the
 //! signal's number alone; `DatasetPlan::write_shard` computes some of them, a task each, and writes them; `DatasetPlan::manifest` reads what
 //! all shards left. Read `draw.rs` first.
 //!
