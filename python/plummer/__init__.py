@@ -11,7 +11,7 @@ Everything is in SI units unless a name says otherwise (``_hz``, ``_deg``). Resu
 
 from __future__ import annotations
 
-from ._errors import CaseError, ComputationError, Error, FileError, InputError, Interrupted, MeshError
+from ._errors import BlewUp, CaseError, ComputationError, Error, FileError, InputError, Interrupted, MeshError, UntrustedWarning
 
 try:
     from ._plummer import set_threads, threads
@@ -35,6 +35,7 @@ from ._run import Run, Signal, Signals
 
 __all__ = [
     "Analysis",
+    "BlewUp",
     "Case",
     "CaseError",
     "ComputationError",
@@ -54,6 +55,7 @@ __all__ = [
     "Signals",
     "Superelement",
     "TransferPath",
+    "UntrustedWarning",
     "analyze",
     "dataset",
     "set_threads",

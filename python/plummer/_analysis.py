@@ -7,7 +7,7 @@ from functools import cached_property
 from typing import TYPE_CHECKING, Any, NamedTuple, Union
 
 from . import _plummer
-from ._errors import InputError
+from ._errors import ComputationError, InputError
 from ._progress import Progress, Stages
 
 if TYPE_CHECKING:
@@ -167,12 +167,26 @@ class Analysis(Sequence[WindowVerdict]):
         return f"<plummer.Analysis: {len(self)} windows, indicated: {', '.join(self.indicated) or 'nothing'}>"
 
 
+def _speed(given: Any) -> list[tuple[float, float]]:
+    """Times (s) with the speed then (Hz)."""
+    import numpy as np
+
+    wrong = f"speed_hz: found {given!r}, expected a number, Hz, or pairs of time (s) and speed (Hz)"
+    try:
+        array = np.asarray(given, dtype=float)
+    except (TypeError, ValueError):
+        raise InputError(wrong) from None
+    if isinstance(given, (str, bytes)) or not (array.ndim == 0 or (array.ndim == 2 and array.shape[1] == 2)):
+        raise InputError(wrong)
+    return [(0.0, float(array))] if array.ndim == 0 else [(float(time), float(speed)) for time, speed in array]
+
+
 def analyze(
     x: ArrayLike | Signal,
     *,
     speed_hz: Speed,
     rate_hz: float | None = None,
-    bearing: str | None = None,
+    bearing: str | int | None = None,
     balls: int | None = None,
     ball_diameter: float | None = None,
     pitch_diameter: float | None = None,
@@ -210,6 +224,7 @@ def analyze(
 
     Raises:
         InputError: no bearing, a window outside the signal, a filter beyond half the sampling rate.
+        ComputationError: no part could be judged in any window.
 
     >>> import numpy as np, plummer
     >>> time = np.arange(24000) / 12000
@@ -234,14 +249,17 @@ def analyze(
             "bearing: expected one of bearing, orders, or balls with ball_diameter and pitch_diameter",
             'write bearing="6205", or orders={"outer": 3.58, "inner": 5.42}',
         )
-    known: Any = bearing if bearing is not None else geometry
+    known: Any = geometry if bearing is None else str(bearing)
     if orders is not None:
         names = ("outer", "inner", "ball", "cage")
         unknown = [name for name in orders if name not in names]
         if unknown:
             raise InputError(f"orders: found {unknown[0]!r}, expected some of {', '.join(names)}")
         known = tuple(orders.get(name) for name in names)
-    values = np.ascontiguousarray(x, dtype=float)
+    given_values = np.asarray(x)
+    if given_values.dtype.kind not in "biuf":
+        raise InputError(f"signal: found values of type {given_values.dtype}, expected real numbers")
+    values = np.ascontiguousarray(given_values, dtype=float)
     if values.ndim != 1:
         raise InputError(f"signal: found an array of shape {values.shape}, expected one of one dimension")
     kurtogram = band_hz == "kurtogram"
@@ -253,7 +271,7 @@ def analyze(
         "bearing": known,
         "contact_angle_deg": contact_angle_deg,
         "geometry_error": geometry_error,
-        "speed_hz": [(0.0, float(speed_hz))] if isinstance(speed_hz, (int, float)) else list(speed_hz),
+        "speed_hz": _speed(speed_hz),
         "windows_s": list(windows_s),
         "high_pass_hz": high_pass_hz,
         "band_hz": None if kurtogram else band_hz,
@@ -261,4 +279,9 @@ def analyze(
         "whiten": whiten,
     }
     with Stages(progress) as stages:
-        return Analysis(_plummer.analyze(values, asked, stages.told))
+        found = Analysis(_plummer.analyze(values, asked, stages.told))
+    reasons = [window.not_judged for window in found]
+    if all(reasons):
+        help = "where the window is too short, take a longer one; where lines coincide, check bearing or orders, and speed_hz"
+        raise ComputationError(f"no part could be judged in any window: {'; '.join(map(str, dict.fromkeys(reasons)))}", help)
+    return found

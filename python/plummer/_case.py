@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 import os
+import warnings
 from collections.abc import Iterator, Mapping
 from pathlib import Path
 from typing import Any, Union
 
 from . import _plummer
 from ._condense import Superelement
-from ._errors import CaseError, Interrupted
+from ._errors import BlewUp, CaseError, Interrupted, UntrustedWarning
 from ._frf import Frf
 from ._mesh import named
 from ._modes import Modes
@@ -83,6 +84,10 @@ class Case:
         other = type(self).__new__(type(self))
         other._case = self._case
         return other
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        meshes = [(name, mesh.content()) for name, mesh in self._case.meshes()]
+        return _unpickled, (self._case.path, self._case.text, self._case.set, meshes)
 
     def __setitem__(self, key: str, value: Any) -> None:
         self.update({key: value})
@@ -173,6 +178,10 @@ class Case:
 
         Raises:
             Interrupted: by Ctrl-C; its ``signals`` are those until then.
+            BlewUp: a solution that does not stay finite; its ``run`` has what came before.
+
+        Warns:
+            UntrustedWarning: signals that cannot be trusted, where the command ends with exit code 1.
 
         >>> import plummer
         >>> run = plummer.Case.load("examples/scenes/impact.toml").run()
@@ -181,8 +190,19 @@ class Case:
         """
         with Stages(progress) as stages:
             try:
-                return Run(self._case.run(stages.told))
+                run = Run(self._case.run(stages.told))
             except Interrupted as error:
                 if isinstance(error.signals, _plummer.Record):
                     error.signals = Signals(error.signals)
                 raise
+        if run.blew_up:
+            raise BlewUp(run.blew_up, run)
+        if run.distrust:
+            warnings.warn(f"the signals cannot be trusted: {run.distrust}; run.warnings says by how much", UntrustedWarning, stacklevel=2)
+        return run
+
+
+def _unpickled(path: str, text: str, set: list[str], meshes: list[tuple[str, bytes]]) -> Case:
+    case = Case.__new__(Case)
+    case._case = _plummer.Case.of_text(path, text, set, [(name, _plummer.Mesh.of_bytes(content, name)) for name, content in meshes])
+    return case

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
-    from ._run import Signals
+    from ._run import Run, Signals
 
 
 class Error(Exception):
@@ -51,6 +51,25 @@ class MeshError(InputError):
 
 class ComputationError(Error, RuntimeError):
     """A computation that failed: exit code 1."""
+
+
+class BlewUp(ComputationError):
+    """A solution that does not stay finite.
+
+    Attributes:
+        run: the run up to the instant before.
+    """
+
+    def __init__(self, what: str, run: Run | None = None) -> None:
+        super().__init__(what)
+        self.run = run
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return type(self), (self.what,)
+
+
+class UntrustedWarning(UserWarning):
+    """Signals that cannot be trusted, with the reason."""
 
 
 class FileError(Error, OSError):

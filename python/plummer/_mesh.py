@@ -8,7 +8,7 @@ from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
 from . import _plummer
-from ._errors import MeshError
+from ._errors import InputError, MeshError
 
 if TYPE_CHECKING:
     import numpy as np
@@ -170,6 +170,9 @@ class Mesh:
         used = np.isin(tags, np.concatenate([block[4] for block in blocks])) if blocks else np.zeros(len(tags), bool)
         return cls(_plummer.Mesh.of_entities(points[used], tags[used], blocks, groups))
 
+    def __reduce__(self) -> tuple[Any, ...]:
+        return _unpickled, (self._mesh.content(),)
+
     @property
     def points(self) -> NDArray[np.float64]:
         """Coordinates of the nodes [nodes, 3], in the unit of the mesh."""
@@ -223,11 +226,17 @@ def _members(what: str, given: ArrayLike, count: int) -> list[int]:
     return [int(member) for member in members]
 
 
+def _unpickled(content: bytes) -> Mesh:
+    return Mesh(_plummer.Mesh.of_bytes(content, "the mesh"))
+
+
 def named(value: Any, found: dict[str, _plummer.Mesh]) -> Any:
     """The same value without keys that are ``None``, and with names in the place of meshes, which go into ``found``."""
     if isinstance(value, Mesh):
         found[value.name] = value._mesh
         return value.name
+    if isinstance(value, (bytes, bytearray)):
+        raise InputError(f"found {value!r}, expected text, a number, True, False, a list or a dict")
     if isinstance(value, Mapping):
         return {key: named(item, found) for key, item in value.items() if item is not None}
     if isinstance(value, Sequence) and not isinstance(value, (str, bytes)):

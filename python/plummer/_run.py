@@ -196,6 +196,11 @@ class Run(Signals, Result):
         return verdicts(self.summary["windows"])
 
     @property
+    def distrust(self) -> str | None:
+        """Why the signals cannot be trusted; ``None``: nothing speaks against them."""
+        return self._computed.distrust
+
+    @property
     def blew_up(self) -> str | None:
         """Why the signals end early; ``None``: they do not."""
         return self._computed.blew_up

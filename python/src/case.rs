@@ -74,6 +74,18 @@ impl Case {
         Self::of(py, Library::from_source(Source { path, text, set: Vec::new() }), &[], &meshes)
     }
 
+    /// A case by the text of its file.
+    #[staticmethod]
+    fn of_text(py: Python<'_>, path: PathBuf, text: String, set: Vec<String>, meshes: Meshes<'_>) -> PyResult<Self> {
+        Self::of(py, Library::from_source(Source { path, text, set }), &[], &meshes)
+    }
+
+    /// Meshes that are at hand, by the names that the case has for them.
+    fn meshes(&self, py: Python<'_>) -> PyResult<Vec<(String, Mesh)>> {
+        let mesh = |(name, content): &(String, Arc<[u8]>)| Ok((name.clone(), Mesh::again(py, content, name)?));
+        self.contents.iter().map(mesh).collect()
+    }
+
     /// The same case with further arguments `KEY=VALUE`.
     fn with_arguments(&self, py: Python<'_>, set: Vec<String>, meshes: Meshes<'_>) -> PyResult<Self> {
         let mut source = self.case.source.clone();

@@ -33,6 +33,11 @@ impl Mesh {
         Ok(Self { mesh: mesh.map_err(|error| errors::of(py, error))?, content: content.into() })
     }
 
+    /// The mesh of a content that was read before.
+    pub(crate) fn again(py: Python<'_>, content: &Arc<[u8]>, name: &str) -> PyResult<Self> {
+        Self::of(py, content.to_vec(), name.as_ref())
+    }
+
     fn of_parts(py: Python<'_>, parts: Result<MeshParts, MshError>, name: &Path) -> PyResult<Self> {
         let wrong = |fault| errors::of(py, MeshError::Gmsh { path: name.to_owned(), fault });
         let content = parts.and_then(|parts| parts.to_msh()).map_err(wrong)?;

@@ -99,6 +99,12 @@ impl Run {
         }
     }
 
+    /// Why the signals cannot be trusted, if they cannot.
+    #[getter]
+    fn distrust(&self) -> Option<&'static str> {
+        self.result.distrust()
+    }
+
     fn summary<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
         page::summary(py, "run", &self.case, &self.result)
     }

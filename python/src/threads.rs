@@ -30,6 +30,15 @@ pub(crate) fn pool(py: Python<'_>) -> PyResult<Arc<ThreadPool>> {
         Some((_, pool)) => std::mem::forget(pool),
         None => {}
     }
+    // a thread that begins without memory ends the process before anything can be said
+    let mut room: Vec<u8> = Vec::new();
+    if room.try_reserve_exact(threads.asked.saturating_mul(STACK)).is_err() {
+        return Err(errors::failed(
+            py,
+            format_args!("{} threads cannot be started: the memory does not suffice", threads.asked),
+        ));
+    }
+    drop(std::hint::black_box(room));
     let made = ThreadPoolBuilder::new().num_threads(threads.asked).stack_size(STACK).build();
     let pool =
         Arc::new(made.map_err(|error| {

@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import copy
 import pickle
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -59,3 +61,44 @@ def test_a_rate_of_zero_is_no_panic() -> None:
     for rate in (0.0, float("nan"), float("inf")):
         with pytest.raises(plummer.Error):
             plummer.analyze(np.ones(100), rate_hz=rate, bearing="6205", speed_hz=10.0)
+
+
+def test_what_the_command_calls_bad_is_no_silent_result() -> None:
+    case = plummer.Case.load("examples/scenes/impact.toml", set={"transient.method": "exponential", "transient.step": 5e-6})
+    with pytest.raises(plummer.BlewUp, match="blew up|grow|finite") as caught:
+        case.run()
+    assert caught.value.run is not None and len(caught.value.run.time_s) < 9601
+    noise = np.random.default_rng(1).standard_normal(24000)
+    with pytest.raises(plummer.ComputationError, match="no part could be judged in any window: .* expected a shaft that turns"):
+        plummer.analyze(noise, rate_hz=12000, bearing="6205", speed_hz=0)
+
+
+def test_a_signal_or_a_speed_of_another_kind_is_refused() -> None:
+    signal = np.random.default_rng(1).standard_normal(24000)
+    asked: dict[str, Any] = {"rate_hz": 12000, "bearing": 6205, "speed_hz": np.float32(29.95)}
+    assert plummer.analyze(signal, **asked).indicated == []
+    with pytest.raises(plummer.InputError, match="values of type complex128, expected real numbers"):
+        plummer.analyze(signal * 1j, **asked)
+    for speed in ("1797rpm", [29.95], [[1, 2, 3]]):
+        with pytest.raises(plummer.InputError, match="speed_hz: found"):
+            plummer.analyze(signal, **{**asked, "speed_hz": speed})
+    with pytest.raises(plummer.InputError, match="found b'x', expected text"):
+        plummer.Case.load("examples/modal/ring.toml")["title"] = b"x"
+
+
+def test_cases_and_meshes_go_through_pickle() -> None:
+    case = plummer.Case.load("examples/modal/pedestal.toml", set={"modes.count": 2})
+    case["housing.mesh"] = plummer.Mesh.read("meshes/pedestal.msh")
+    again = pickle.loads(pickle.dumps(case))
+    assert again["modes.count"] == 2 and copy.deepcopy(case).settings == case.settings
+    np.testing.assert_array_equal(again.modes().frequencies_hz, case.modes().frequencies_hz)
+
+
+def test_threads_that_the_memory_does_not_hold_are_an_error() -> None:
+    before = plummer.threads()
+    plummer.set_threads(10**9)
+    try:
+        with pytest.raises(plummer.ComputationError, match="threads cannot be started: the memory does not suffice"):
+            plummer.threads()
+    finally:
+        plummer.set_threads(before)

@@ -211,7 +211,8 @@ fn energy_warning(energy: Option<&EnergyBalance>) -> Option<String> {
 
 impl<R: Recording> RunResult<R> {
     /// Why the signals cannot be trusted, if they cannot: a warning has the figures.
-    pub(crate) fn distrust(&self) -> Option<&'static str> {
+    #[must_use]
+    pub fn distrust(&self) -> Option<&'static str> {
         let unbalanced = energy_warning(self.simulation.energy.as_ref()).map(|_| "the energy balance does not close");
         unbalanced.or_else(|| self.choice.distrust())
     }
