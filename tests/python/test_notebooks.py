@@ -17,7 +17,7 @@ NOTEBOOKS = sorted((ROOT / "docs" / "notebooks").glob("*.py"))
 
 def test_the_page_shows_all_notebooks() -> None:
     page = (ROOT / "docs" / "notebooks.md").read_text(encoding="utf-8")
-    assert re.findall(r"#include notebooks/(\w+)\.py", page) == ["gmsh_to_paraview", "rotor_on_superelement", "learning_curve"]
+    assert re.findall(r"\(notebooks/(\w+)\.py\)", page) == ["gmsh_to_paraview", "rotor_on_superelement", "learning_curve"]
     assert len(NOTEBOOKS) == 3
 
 
