@@ -7,6 +7,7 @@ use std::io::Read;
 use std::path::{Path, PathBuf};
 
 use super::common::{errors, plummer, scratch};
+use super::validator::Validator;
 use serde_json::Value;
 
 /// A ring on springs: no housing is condensed.
@@ -285,5 +286,19 @@ fn what_is_wrong_is_named_with_its_place() {
     ] {
         let said = refused(from, to);
         assert!(said.contains(told), "{to}: {said}");
+    }
+}
+
+#[test]
+fn specifications_are_valid_by_their_schema() {
+    let folder = scratch("dataset schema");
+    let schema: Value = serde_json::from_slice(&plummer(&folder, &["schema", "--dataset"]).stdout).unwrap();
+    let validator = Validator::new(&schema);
+    let example = Path::new(env!("CARGO_MANIFEST_DIR")).join("examples/datasets/two_machines.toml");
+    for text in [SPEC, &fs::read_to_string(example).unwrap()] {
+        let mut spec: Value = toml::from_str(text).unwrap();
+        assert_eq!(validator.check(&spec), Ok(()));
+        spec["recorder"]["rate_hertz"] = 1.into();
+        assert!(validator.check(&spec).is_err(), "an unknown key");
     }
 }

@@ -212,19 +212,24 @@ impl DatasetPlan {
         Noise { coloured: loudness.map(|loudness| (loudness, colour, own("noise"))), modulation, background, tones }
     }
 
-    /// Reads the cases of the first signal of each kind of machine with each fault: what is wrong with all is wrong with the specification.
+    /// Reads cases of signals of each kind of machine with each fault: what is wrong with all is wrong with the specification.
     fn check_draws(&self) -> Result<(), ComputeError> {
-        let mut seen: BTreeMap<(usize, Label), usize> = BTreeMap::new();
-        for (number, specimen) in self.hierarchy.specimens.iter().enumerate() {
+        /// Signals of one kind that are looked at.
+        const LOOKED_AT: usize = 50;
+        let mut kinds: BTreeMap<(usize, Label), Vec<usize>> = BTreeMap::new();
+        for number in 0..self.count {
+            let specimen = self.hierarchy.specimens[number / self.spec.signals_per_specimen];
             let entry = self.hierarchy.machines[specimen.machine].entry;
-            seen.entry((entry, specimen.label)).or_insert(number * self.spec.signals_per_specimen);
+            let kind = kinds.entry((entry, specimen.label)).or_default();
+            if kind.len() < LOOKED_AT {
+                kind.push(number);
+            }
         }
-        for ((entry, label), number) in seen {
-            let refused = |number: usize| self.case(&self.signal(number)).err();
-            let Some(error) = refused(number) else { continue };
+        for ((entry, label), numbers) in kinds {
+            let mut errors = numbers.iter().map(|number| self.case(&self.signal(*number)).err());
+            let Some(Some(error)) = errors.next() else { continue };
             // a value out of a range may be a rare one; a key that is none is not
-            if error.valid.is_empty() && (number + 1..self.count.min(number + 50)).any(|other| refused(other).is_none())
-            {
+            if error.valid.is_empty() && errors.any(|other| other.is_none()) {
                 continue;
             }
             let place = self.source.path.display();

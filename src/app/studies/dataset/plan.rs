@@ -40,9 +40,10 @@ impl DatasetPlan {
             ComputeError::input(what, "give count in the specification, or --count N")
         })?;
         let cases = spec.cases(&source)?;
+        // a file that cannot be read as a record is wrong input
+        let background = spec.background(&source)?;
         let identity = identity(&spec, &source, &cases)?;
         let samples = spec.recorder.samples()[0];
-        let background = spec.background(&source)?;
         Ok(Self {
             hierarchy: Hierarchy::new(&spec, count.div_ceil(spec.signals_per_specimen)),
             per_shard: spec.signals_per_file.unwrap_or((MOST_BYTES / (4 * samples)).clamp(1, MOST_OF_SHARD)),
