@@ -36,10 +36,7 @@ fn files(folder: &Path, ending: &str, found: &mut Vec<PathBuf>) {
     for entry in fs::read_dir(folder).unwrap() {
         let path = entry.unwrap().path();
         if path.is_dir() {
-            // specifications of data sets are no cases
-            if !path.ends_with("examples/datasets") {
-                files(&path, ending, found);
-            }
+            files(&path, ending, found);
         } else if path.extension().is_some_and(|found| found == ending) {
             found.push(path);
         }

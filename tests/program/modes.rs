@@ -302,7 +302,7 @@ fn a_mesh_at_hand_gives_the_modes_of_its_file() {
         let set: Vec<String> = set.iter().map(|&key| key.to_owned()).collect();
         Case::load(project("examples/modal/pedestal.toml"), &set).unwrap()
     };
-    let keys = ["modes.count=2", "modes.variants=[{what=\"denser\", set=[\"materials.aluminium.density=2800\"]}]"];
+    let keys = ["modes.count=2", "modes.variants=[{what=\"denser\", set=[\"housing.parts[0].material=steel\"]}]"];
     let elsewhere = load(&[&keys[..], &["housing.mesh=nowhere.msh"]].concat());
     assert!(compute_modes(&elsewhere, &Unwatched).unwrap_err().to_string().contains("nowhere.msh"));
     let found = compute_modes(&elsewhere.with_content("nowhere.msh", bytes.into()), &Unwatched).unwrap();

@@ -51,9 +51,13 @@ impl DatasetPlan {
 
     /// All that is drawn for a signal, from 0 to below [`count`](Self::count).
     pub(super) fn signal(&self, number: usize) -> Signal {
+        let specimen_number = number / self.spec.signals_per_specimen;
+        self.signal_of(self.hierarchy.specimens[specimen_number], specimen_number, number)
+    }
+
+    /// The same of a specimen of any number, also beyond those of the data set.
+    fn signal_of(&self, specimen: Specimen, specimen_number: usize, number: usize) -> Signal {
         let spec = &self.spec;
-        let specimen_number = number / spec.signals_per_specimen;
-        let specimen = self.hierarchy.specimens[specimen_number];
         let entry = self.hierarchy.machines[specimen.machine].entry;
         let case = &self.cases[entry];
         let mut draws = Draws { seed: spec.seed, drawn: BTreeMap::new() };
@@ -214,19 +218,16 @@ impl DatasetPlan {
 
     /// Reads cases of signals of each kind of machine with each fault: what is wrong with all is wrong with the specification.
     fn check_draws(&self) -> Result<(), ComputeError> {
-        /// Signals of one kind that are looked at.
+        /// Signals of one kind that are looked at, more than a small data set has.
         const LOOKED_AT: usize = 50;
-        let mut kinds: BTreeMap<(usize, Label), Vec<usize>> = BTreeMap::new();
-        for number in 0..self.count {
-            let specimen = self.hierarchy.specimens[number / self.spec.signals_per_specimen];
+        let mut kinds: BTreeMap<(usize, Label), Specimen> = BTreeMap::new();
+        for specimen in &self.hierarchy.specimens {
             let entry = self.hierarchy.machines[specimen.machine].entry;
-            let kind = kinds.entry((entry, specimen.label)).or_default();
-            if kind.len() < LOOKED_AT {
-                kind.push(number);
-            }
+            kinds.entry((entry, specimen.label)).or_insert(*specimen);
         }
-        for ((entry, label), numbers) in kinds {
-            let mut errors = numbers.iter().map(|number| self.case(&self.signal(*number)).err());
+        for ((entry, label), specimen) in kinds {
+            let drawn = (0..LOOKED_AT).map(|number| self.signal_of(specimen, number, number));
+            let mut errors = drawn.map(|signal| self.case(&signal).err());
             let Some(Some(error)) = errors.next() else { continue };
             // a value out of a range may be a rare one; a key that is none is not
             if error.valid.is_empty() && errors.any(|other| other.is_none()) {
