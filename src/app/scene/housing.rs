@@ -227,6 +227,12 @@ mod tests {
         std::fs::remove_file(folder.path().join("b.msh")).unwrap();
         let error = mesh_digests(&case).unwrap_err().to_string();
         assert!(error.contains("b.msh"), "{error}");
+        let case = case.with_content("a.msh", b"".as_slice().into());
+        // a variant reads what is at hand too
+        assert!(
+            case.variants().unwrap().iter().all(|variant| variant.case.content(&folder.path().join("a.msh")).is_some())
+        );
+        let case = case.with_content("a.msh", b"abc".as_slice().into());
         let at_hand = mesh_digests(&case.with_content("b.msh", b"abc".as_slice().into())).unwrap();
         assert_eq!(at_hand.iter().map(|digest| digest.sha256.as_str()).collect::<Vec<_>>(), [abc, abc]);
     }
