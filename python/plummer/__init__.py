@@ -11,7 +11,18 @@ Everything is in SI units unless a name says otherwise (``_hz``, ``_deg``). Resu
 
 from __future__ import annotations
 
-from ._errors import BlewUp, CaseError, ComputationError, Error, FileError, InputError, Interrupted, MeshError, UntrustedWarning
+from ._errors import (
+    BlewUp,
+    CaseError,
+    ComputationError,
+    Error,
+    FileError,
+    InputError,
+    Interrupted,
+    MeshError,
+    SignalWarning,
+    UntrustedWarning,
+)
 
 try:
     from ._plummer import set_threads, threads
@@ -52,6 +63,7 @@ __all__ = [
     "Result",
     "Run",
     "Signal",
+    "SignalWarning",
     "Signals",
     "Superelement",
     "TransferPath",

@@ -2,19 +2,21 @@
 
 from __future__ import annotations
 
+import warnings
 from collections.abc import Mapping, Sequence
 from functools import cached_property
 from typing import TYPE_CHECKING, Any, NamedTuple, Union
 
 from . import _plummer
-from ._errors import ComputationError, InputError
+from ._errors import ComputationError, InputError, SignalWarning
 from ._progress import Progress, Stages
 
 if TYPE_CHECKING:
     import pandas
     from matplotlib.axes import Axes
-    from numpy.typing import ArrayLike
+    from numpy.typing import ArrayLike, NDArray
 
+    from ._case import Case
     from ._run import Signal
 
 #: A constant speed, Hz; or times (s) with the speed then (Hz), straight between.
@@ -57,6 +59,8 @@ class WindowVerdict(NamedTuple):
     faults: list[FaultVerdict]
     #: why nothing was judged; ``None``: it was
     not_judged: str | None
+    #: parts whose lines grew since the baseline, by how much, dB
+    grew: dict[str, float | None]
 
     @property
     def indicated(self) -> list[str]:
@@ -90,6 +94,7 @@ def verdicts(windows: list[dict[str, Any]]) -> list[WindowVerdict]:
                 window["rms"],
                 faults,
                 None if "faults" in verdict else verdict["reason"],
+                {line["name"]: line["change_db"] for line in window.get("changes", {}).get("lines", []) if line["conclusion"] == "grew"},
             )
         )
     return found
@@ -98,7 +103,7 @@ def verdicts(windows: list[dict[str, Any]]) -> list[WindowVerdict]:
 def rows(verdicts: list[WindowVerdict]) -> list[dict[str, Any]]:
     """A row for each part in each window."""
     return [
-        {**{key: value for key, value in window._asdict().items() if key not in ("faults", "not_judged")}, **fault._asdict()}
+        {**{key: value for key, value in window._asdict().items() if key not in ("faults", "not_judged", "grew")}, **fault._asdict()}
         for window in verdicts
         for fault in window.faults
     ]
@@ -119,6 +124,11 @@ class Analysis(Sequence[WindowVerdict]):
     def verdicts(self) -> list[WindowVerdict]:
         """What each window says of each part."""
         return verdicts(self.windows)
+
+    @property
+    def warnings(self) -> list[str]:
+        """What is wrong with the signal and its baseline: clipping, stretches that stand still, other units or speeds."""
+        return self._computed.warnings
 
     def __getitem__(self, window: Any) -> Any:
         return self.verdicts[window]
@@ -181,12 +191,24 @@ def _speed(given: Any) -> list[tuple[float, float]]:
     return [(0.0, float(array))] if array.ndim == 0 else [(float(time), float(speed)) for time, speed in array]
 
 
+def _samples(x: ArrayLike | Signal, what: str) -> NDArray[Any]:
+    """Values [samples] of a signal, as the extension takes them."""
+    import numpy as np
+
+    given = np.asarray(x)
+    if given.dtype.kind not in "biuf":
+        raise InputError(f"{what}: found values of type {given.dtype}, expected real numbers")
+    if given.ndim != 1:
+        raise InputError(f"{what}: found an array of shape {given.shape}, expected one of one dimension")
+    return np.ascontiguousarray(given, dtype=float)
+
+
 def analyze(
     x: ArrayLike | Signal,
     *,
-    speed_hz: Speed,
+    speed_hz: Speed | None = None,
     rate_hz: float | None = None,
-    bearing: str | int | None = None,
+    bearing: str | int | Case | None = None,
     balls: int | None = None,
     ball_diameter: float | None = None,
     pitch_diameter: float | None = None,
@@ -197,51 +219,69 @@ def analyze(
     high_pass_hz: float | None = None,
     band_hz: tuple[float, float] | str | None = None,
     whiten: bool = False,
-    start_s: float = 0.0,
+    start_s: float | None = None,
     unit: str = "",
     channel: str = "signal",
+    baseline: ArrayLike | Signal | None = None,
+    baseline_speed_hz: Speed | None = None,
+    baseline_rate_hz: float | None = None,
+    baseline_window_s: tuple[float, float] | None = None,
     progress: Progress = None,
 ) -> Analysis:
     """Which part of a bearing a signal indicates, as ``plummer analyze`` says it.
 
     Args:
         x: samples [samples], evenly in time; or a signal of a run, whose rate and unit it has.
-        speed_hz: speed of the shaft, Hz; or times (s) with the speed then.
+        speed_hz: speed of the shaft, Hz; or times (s) with the speed then. ``None``: that of the case that ``bearing`` is.
         rate_hz: sampling rate, Hz.
-        bearing: name in the catalogue, such as ``"6205"``.
+        bearing: name in the catalogue, such as ``"6205"``; or a case with bearing and shaft in the plane.
         balls: number of balls, with ``ball_diameter`` and ``pitch_diameter`` in one unit, in the place of ``bearing``.
         orders: events per turn, some of ``outer``, ``inner``, ``ball`` and ``cage``, in the place of ``bearing``.
-        contact_angle_deg: contact angle, degrees.
+        contact_angle_deg: contact angle, degrees, of a bearing by its name or its balls.
         geometry_error: how far orders may be off, relative, 0 to 0.1.
         windows_s: windows from, to (s); none: all of the signal.
         high_pass_hz: corner of the high-pass before the envelope, Hz.
         band_hz: band before the envelope, Hz, or ``"kurtogram"``, in the place of ``high_pass_hz``.
         whiten: shows the spectrum of the whitened signal's squared envelope.
-        start_s: time of the first sample, s.
+        start_s: time of the first sample, s; ``None``: 0, or that of a run's signal.
         unit: unit of the samples.
         channel: name of the signal.
+        baseline: earlier signal of the same machine, sensor and gain: :attr:`WindowVerdict.grew` says what grew since.
+        baseline_speed_hz: speed of the shaft then, as ``speed_hz``; ``None``: the same.
+        baseline_rate_hz: its sampling rate, Hz; ``None``: the same.
+        baseline_window_s: window of it that counts, s; ``None``: the window of the signal if it holds that, else all of it.
         progress: ``True`` for a bar; or what is called as tqdm is.
 
     Raises:
         InputError: no bearing, a window outside the signal, a filter beyond half the sampling rate.
         ComputationError: no part could be judged in any window.
 
+    Warns:
+        SignalWarning: samples that are clipped or stand still, a baseline that is doubtful.
+
     >>> import numpy as np, plummer
     >>> time = np.arange(24000) / 12000
     >>> strikes = np.exp(-800 * (time % (1 / 107.36))) * np.sin(2 * np.pi * 3000 * (time % (1 / 107.36)))
-    >>> signal = strikes + 0.05 * np.random.default_rng(1).standard_normal(time.size)
-    >>> plummer.analyze(signal, rate_hz=12000, bearing="6205", speed_hz=29.95).indicated
-    ['outer race']
+    >>> noise = 0.05 * np.random.default_rng(1).standard_normal((2, time.size))
+    >>> found = plummer.analyze(strikes + noise[0], rate_hz=12000, bearing="6205", speed_hz=29.95, baseline=noise[1])
+    >>> found.indicated, list(found[0].grew)
+    (['outer race'], ['outer race'])
     """
-    import numpy as np
-
+    from ._case import Case
     from ._run import Signal
 
-    if isinstance(x, Signal):
-        rate_hz, unit, start_s = rate_hz or x.rate_hz, unit or x.unit, start_s or float(x.time_s[0])
-        channel = x.name if channel == "signal" else channel
-    if rate_hz is None:
-        raise InputError("rate_hz: found nothing, expected the sampling rate, Hz")
+    def known(signal: ArrayLike | Signal, rate_hz: float | None, start_s: float | None, speed_hz: Speed | None, name: str) -> dict[str, Any]:
+        own_unit = unit
+        if isinstance(signal, Signal):
+            rate_hz = signal.rate_hz if rate_hz is None else rate_hz
+            start_s = float(signal.time_s[0]) if start_s is None else start_s
+            own_unit, name = unit or signal.unit, signal.name if name in ("signal", "baseline") else name
+        if rate_hz is None:
+            raise InputError("rate_hz: found nothing, expected the sampling rate, Hz")
+        speed = None if speed_hz is None else _speed(speed_hz)
+        return {"rate_hz": float(rate_hz), "start_s": float(start_s or 0), "unit": own_unit, "channel": name, "speed_hz": speed}
+
+    case = bearing if isinstance(bearing, Case) else None
     geometry = (balls, ball_diameter, pitch_diameter)
     given = [name is not None for name in (bearing, orders)] + [any(value is not None for value in geometry)]
     if sum(given) != 1 or (given[2] and None in geometry):
@@ -249,37 +289,36 @@ def analyze(
             "bearing: expected one of bearing, orders, or balls with ball_diameter and pitch_diameter",
             'write bearing="6205", or orders={"outer": 3.58, "inner": 5.42}',
         )
-    known: Any = geometry if bearing is None else str(bearing)
+    if speed_hz is None and case is None:
+        raise InputError("speed_hz: found nothing, expected the speed of the shaft, Hz")
+    of: Any = geometry if given[2] else str(bearing)
     if orders is not None:
         names = ("outer", "inner", "ball", "cage")
         unknown = [name for name in orders if name not in names]
         if unknown:
             raise InputError(f"orders: found {unknown[0]!r}, expected some of {', '.join(names)}")
-        known = tuple(orders.get(name) for name in names)
-    given_values = np.asarray(x)
-    if given_values.dtype.kind not in "biuf":
-        raise InputError(f"signal: found values of type {given_values.dtype}, expected real numbers")
-    values = np.ascontiguousarray(given_values, dtype=float)
-    if values.ndim != 1:
-        raise InputError(f"signal: found an array of shape {values.shape}, expected one of one dimension")
+        of = tuple(orders.get(name) for name in names)
     kurtogram = band_hz == "kurtogram"
     asked = {
-        "rate_hz": float(rate_hz),
-        "start_s": start_s,
-        "unit": unit,
-        "channel": channel,
-        "bearing": known,
+        "bearing": None if case else of,
         "contact_angle_deg": contact_angle_deg,
         "geometry_error": geometry_error,
-        "speed_hz": _speed(speed_hz),
         "windows_s": list(windows_s),
         "high_pass_hz": high_pass_hz,
         "band_hz": None if kurtogram else band_hz,
         "kurtogram": kurtogram,
         "whiten": whiten,
     }
+    own = known(x, rate_hz, start_s, speed_hz, channel)
+    earlier = None
+    if baseline is not None:
+        speed = speed_hz if baseline_speed_hz is None else baseline_speed_hz
+        rate = own["rate_hz"] if baseline_rate_hz is None and not isinstance(baseline, Signal) else baseline_rate_hz
+        earlier = (_samples(baseline, "baseline"), known(baseline, rate, None, speed, "baseline"), baseline_window_s)
     with Stages(progress) as stages:
-        found = Analysis(_plummer.analyze(values, asked, stages.told))
+        found = Analysis(_plummer.analyze(_samples(x, "signal"), own, asked, None if case is None else case._case, earlier, stages.told))
+    for text in found.warnings:
+        warnings.warn(text, SignalWarning, stacklevel=2)
     reasons = [window.not_judged for window in found]
     if all(reasons):
         help = "where the window is too short, take a longer one; where lines coincide, check bearing or orders, and speed_hz"

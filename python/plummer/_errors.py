@@ -72,6 +72,10 @@ class UntrustedWarning(UserWarning):
     """Signals that cannot be trusted, with the reason."""
 
 
+class SignalWarning(UserWarning):
+    """What is wrong with an analysed signal: clipped samples, stretches that stand still, a doubtful baseline."""
+
+
 class FileError(Error, OSError):
     """A file that the system does not let read or write."""
 

@@ -26,7 +26,14 @@ def toml_value(value: Any) -> str: ...
 def node_order(gmsh_type: int) -> tuple[int, list[int]]:
     """Number of nodes of an element; for each place of a node in VTK's order its place in gmsh's."""
 
-def analyze(signal: Floats, asked: Mapping[str, Any], progress: Told) -> Analysis: ...
+def analyze(
+    signal: Floats,
+    known: Mapping[str, Any],
+    asked: Mapping[str, Any],
+    case: Case | None,
+    earlier: tuple[Floats, Mapping[str, Any], tuple[float, float] | None] | None,
+    progress: Told,
+) -> Analysis: ...
 
 class Case:
     path: str
@@ -106,5 +113,6 @@ class Run:
     def html(self) -> str: ...
 
 class Analysis:
+    warnings: list[str]
     def windows(self) -> list[dict[str, Any]]: ...
     def spectra(self) -> list[list[Floats]]: ...

@@ -26,6 +26,11 @@ pub(crate) struct Case {
 }
 
 impl Case {
+    /// The case of the library.
+    pub(crate) fn library(&self) -> Arc<Library> {
+        Arc::clone(&self.case)
+    }
+
     /// A case that was read, with those meshes that are at hand already, and more.
     fn of(
         py: Python<'_>,

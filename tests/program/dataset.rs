@@ -230,6 +230,22 @@ fn a_signal_that_cannot_be_computed_has_its_reason() {
 }
 
 #[test]
+fn a_flaw_is_on_a_ball_of_the_drawn_bearing() {
+    let races = ["outer = ", "inner = "].map(|part| SPEC.lines().find(|line| line.starts_with(part)).unwrap());
+    let spec = SPEC.replace(races[0], "ball = { share = 1, flat_radius = 1.5e-3, depth = 3e-6 }");
+    let spec = spec.replace(races[1], "").replace("none = 1", "none = 0").replace("signals_per_specimen = 2", "");
+    let few = "[per_machine]\n\"bearing.balls\" = 3";
+    let folder = folder("few balls", &spec.replace("[per_machine]", few));
+    let short = ["--set", "signals_per_specimen=1", "--set", "recorder.duration_s=0.01", "--set", "untrusted=keep"];
+    let (code, said) = dataset(&folder, &[&["spec.toml", "--out", "out", "--count", "20"], short.as_slice()].concat());
+    assert_eq!(code, 0, "{said}");
+    let manifest = json(&folder.join("out/manifest.json"));
+    let balls =
+        manifest["signals"].as_array().unwrap().iter().map(|signal| signal["drawn"]["fault.ball.ball"].as_u64());
+    assert_eq!(balls.collect::<BTreeSet<_>>(), BTreeSet::from([Some(0), Some(1), Some(2)]));
+}
+
+#[test]
 fn what_is_wrong_is_named_with_its_place() {
     let refused = |from: &str, to: &str| {
         assert!(SPEC.contains(from), "{from}");

@@ -154,3 +154,26 @@ def test_a_measured_signal_is_judged_as_by_the_program(program: Program) -> None
             windows_s=[(1.0, 9.0)],
         )
     same(found.windows, said["windows"], "analyze")
+
+
+def test_an_earlier_signal_is_compared_as_by_the_program(program: Program) -> None:
+    path = "examples/measured/nmb_1560kk.npz"
+    options = ["--orders", "outer=2.58,inner=4.42", "--speed", "5.1", "--window", "5:9", "--baseline", path, "--baseline-window", "1:5"]
+    said, _ = program("analyze", path, result="analysis", options=options)
+    with np.load(path) as file:
+        signal, rate_hz = file["signal"], file["rate_hz"][0]
+    asked: dict[str, Any] = {"speed_hz": 5.1, "orders": {"outer": 2.58, "inner": 4.42}, "windows_s": [(5.0, 9.0)]}
+    found = plummer.analyze(signal, rate_hz=rate_hz, baseline=signal, baseline_window_s=(1.0, 5.0), **asked)
+    for part in ("lines", "levels"):
+        same(found.windows[0]["changes"][part], said["windows"][0]["changes"][part], part)
+
+
+@pytest.mark.parametrize("speed_hz", [None, 5.1])
+def test_a_case_says_the_bearing_as_for_the_program(program: Program, speed_hz: float | None) -> None:
+    path, case = "examples/measured/nmb_1560kk.npz", "examples/tadina2011/outer-dent.toml"
+    options = ["--bearing", case, "--window", "1:2.5", *([] if speed_hz is None else ["--speed", str(speed_hz)])]
+    said, _ = program("analyze", path, result="analysis", options=options)
+    with np.load(path) as file:
+        bearing = plummer.Case.load(case)
+        found = plummer.analyze(file["signal"], rate_hz=file["rate_hz"][0], bearing=bearing, speed_hz=speed_hz, windows_s=[(1.0, 2.5)])
+    same(found.windows, said["windows"], "analyze")

@@ -86,6 +86,36 @@ def test_a_signal_or_a_speed_of_another_kind_is_refused() -> None:
         plummer.Case.load("examples/modal/ring.toml")["title"] = b"x"
 
 
+def test_a_shaft_that_turns_between_two_samples_is_refused() -> None:
+    noise = np.random.default_rng(1).standard_normal(24000)
+    for speed in (7000.0, 1e9):
+        with pytest.raises(plummer.InputError, match="expected a shaft speed below half of the sampling rate"):
+            plummer.analyze(noise, rate_hz=12000, bearing="6205", speed_hz=speed)
+
+
+def test_what_is_wrong_with_a_signal_is_a_warning() -> None:
+    noise = np.random.default_rng(1).standard_normal(24000)
+    still = np.concatenate([np.zeros(4000), noise[4000:]])
+    asked: dict[str, Any] = {"rate_hz": 12000, "bearing": "6205", "speed_hz": 29.95}
+    for signal, words in ((np.clip(noise, -1, 1), "clipping makes lines"), (still, "nothing changes from 0.0000 to 0.33")):
+        with pytest.warns(plummer.SignalWarning, match=words):
+            found = plummer.analyze(signal, **asked)
+        assert len(found.warnings) == 1
+    with pytest.warns(plummer.SignalWarning, match="the input itself or a copy of it"):
+        plummer.analyze(noise, baseline=noise.copy(), **asked)
+
+
+def test_a_bearing_is_said_once_and_with_a_speed() -> None:
+    noise = np.random.default_rng(1).standard_normal(24000)
+    case = plummer.Case.load("examples/tadina2011/outer-dent.toml")
+    with pytest.raises(plummer.InputError, match="expected one of bearing"):
+        plummer.analyze(noise, rate_hz=12000, bearing=case, balls=9)
+    with pytest.raises(plummer.InputError, match="speed_hz: found nothing"):
+        plummer.analyze(noise, rate_hz=12000, bearing="6205")
+    with pytest.raises(plummer.InputError, match="a case without .bearing. or .shaft."):
+        plummer.analyze(noise, rate_hz=12000, bearing=plummer.Case.load("examples/modal/ring.toml"), speed_hz=30.0)
+
+
 def test_cases_and_meshes_go_through_pickle() -> None:
     case = plummer.Case.load("examples/modal/pedestal.toml", set={"modes.count": 2})
     case["housing.mesh"] = plummer.Mesh.read("meshes/pedestal.msh")

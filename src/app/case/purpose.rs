@@ -192,7 +192,7 @@ impl Case {
     ///
     /// # Errors
     /// [`CaseError`] with the first such key.
-    pub(crate) fn in_the_plane(&self) -> Result<(), CaseError> {
+    pub fn in_the_plane(&self) -> Result<(), CaseError> {
         let Some((key, found)) = self.spatial_key() else {
             return Ok(());
         };

@@ -1,12 +1,11 @@
 //! An earlier signal of the same machine that inputs are compared with.
 
-use std::fs;
 use std::path::{Path, PathBuf};
 
 use super::AnalyzeArguments;
 use super::source::{Missing, Source, Unnamed, first_channels, read};
 use crate::app::cli::{CliError, Options};
-use crate::app::commands::analyze::{EarlierSignal, WindowAnalysis, compare_window};
+use crate::app::commands::analyze::{EarlierSignal, WindowAnalysis, compare_windows};
 use crate::app::error::ComputeError;
 use crate::formats::{MeasuredSignal, SignalRequest};
 use crate::numerics::series::TimeWindow;
@@ -67,53 +66,23 @@ impl Baseline {
         windows: &mut [WindowAnalysis],
     ) -> Result<(), CliError> {
         let earlier = self.signal(signal)?;
-        let [expected, found] = [signal, earlier].map(|signal| signal.series.unit());
-        if !expected.is_empty() && !found.is_empty() && expected != found {
-            return Err(CliError::input(format!(
-                "--baseline {}, channel \"{}\": expected {expected} as in {}, found {found}",
-                self.path.display(),
-                earlier.name,
-                input.display()
-            ))
-            .with_help("scale one of the two files to the unit of the other"));
-        }
         let kinematics = source.kinematics(input, signal)?;
         let before = self.source.kinematics(&self.path, earlier)?;
         let name = self.path.display().to_string();
-        for window in windows {
-            let earlier = EarlierSignal {
-                name: &name,
-                signal: earlier,
-                window: self.window(source, earlier, window),
-                kinematics: &before,
-                settings: &self.source.settings,
-            };
-            let compared = compare_window(window, &source.settings, signal, &kinematics, &earlier);
-            compared.map_err(|error| {
-                CliError::input(format!("--baseline {name}, channel \"{}\": {error}", earlier.signal.name))
-                    .with_help("see --baseline-window and --baseline-speed for the part of it that counts")
-            })?;
-            let Some(change) = window.change.as_mut() else {
-                continue;
-            };
-            if expected != found {
-                let (of, unit) =
-                    if found.is_empty() { (&name, expected) } else { (&input.display().to_string(), found) };
-                change.warnings.push(format!(
-                    "{of} states no unit and is compared as if it were in {unit}: in g or m/s^2, levels would be 19.8 dB apart."
-                ));
-            }
-            let apart = change.to <= window.from || window.to <= change.from;
-            let is_same = self.is(input) && earlier.signal.name == signal.name;
-            if is_same && !apart {
-                change.warnings.push(format!(
-                    "The baseline is the input itself, {name}, and the windows overlap: nothing can have grown since."
-                ));
-            } else if signal.series.values() == earlier.signal.series.values() {
-                change.warnings.push(format!("The baseline {name} has the input's own samples: it is a copy of it."));
-            }
-        }
-        Ok(())
+        let earlier = EarlierSignal {
+            name: &name,
+            signal: earlier,
+            window: self.window,
+            kinematics: &before,
+            settings: &self.source.settings,
+        };
+        compare_windows(windows, &source.settings, signal, &kinematics, &earlier).map_err(|error| {
+            let help = error.help();
+            let help = help.unwrap_or_else(|| {
+                "see --baseline-window and --baseline-speed for the part of it that counts".to_owned()
+            });
+            CliError::input(format!("--baseline {name}, channel \"{}\": {error}", earlier.signal.name)).with_help(help)
+        })
     }
 
     /// The signal of the same name, else the only one.
@@ -134,20 +103,6 @@ impl Baseline {
                 .with_help(format!("--baseline-channel NAME; the baseline has {}", first_channels(&known))))
             }
         }
-    }
-
-    /// `--baseline-window`; else the input's own window, if windows are given and the baseline holds it; else all of it.
-    fn window(&self, source: &Source, earlier: &MeasuredSignal, window: &WindowAnalysis) -> TimeWindow {
-        let series = &earlier.series;
-        let same = TimeWindow { from: window.from, to: window.to };
-        let inside = same.check_inside(series.start_s(), series.step_s(), series.values().len()).is_ok();
-        let same = Some(same).filter(|_| inside && !source.settings.windows.is_empty());
-        self.window.or(same).unwrap_or_else(|| series.span())
-    }
-
-    /// Whether an input is the baseline.
-    fn is(&self, input: &Path) -> bool {
-        fs::canonicalize(input).is_ok_and(|input| fs::canonicalize(&self.path).is_ok_and(|own| input == own))
     }
 }
 

@@ -9,14 +9,15 @@ use crate::app::cli::earlier_results::{Wanted, case_of_results};
 use crate::app::cli::output::extend_new;
 use crate::app::cli::{CliError, Options};
 use crate::app::commands::analyze::{
-    AnalysisSettings, AskedBand, DamageShown, OrdersSummary, WindowAnalysis, compute_analysis,
+    AnalysisSettings, AskedBand, DamageShown, OrdersSummary, WindowAnalysis, check_speed, compute_analysis,
+    signal_flaws,
 };
 use crate::app::commands::parts;
 use crate::app::error::ComputeError;
 use crate::formats::{MeasuredError, MeasuredSignal, SignalRequest, read_signals};
 use crate::numerics::Unwatched;
 use crate::numerics::series::{TimeSeries, TimeWindow};
-use crate::report::{Cell, Fact, Section, given, pretty_unit, quantity, shaft_speed, significant};
+use crate::report::{Cell, Fact, Section, given, pretty_unit, quantity, shaft_speed};
 use crate::signal::diagnosis::Kinematics;
 use std::path::Path;
 
@@ -104,7 +105,7 @@ impl Source {
         let mut doubts = turning.alike.clone();
         for signal in &signals {
             let typed = turning.overruled(signal, asked.rate.map(|rate| (option, rate)));
-            let flaws = flaws(signal, &settings.windows);
+            let flaws = signal_flaws(signal, &settings.windows);
             extend_new(&mut doubts, typed.into_iter().chain(flaws).chain(signal.doubts.clone()));
             extend_new(&mut assumptions, turning.motion(signal).into_iter().flat_map(|(_, notes)| notes));
         }
@@ -198,16 +199,10 @@ impl Source {
     pub(super) fn kinematics(&self, input: &Path, signal: &MeasuredSignal) -> Result<Kinematics<'_>, CliError> {
         let motion = self.turning.motion(signal);
         let (kinematics, _) = motion.ok_or_else(|| nothing_says(input, &[Missing::Speed]))?;
-        let (series, speed_hz) = (&signal.series, kinematics.mean_speed_hz(signal.series.span()));
-        if speed_hz.is_nan() || speed_hz >= 0.5 * series.rate_hz() {
-            return Err(CliError::input(format!(
-                "{}, channel \"{}\": expected a shaft speed below half of the sampling rate, {:e} Hz, found {speed_hz:e} Hz",
-                input.display(),
-                signal.name,
-                series.rate_hz()
-            ))
-            .with_help("check --speed and --rate, or what the file says"));
-        }
+        check_speed(signal, &kinematics).map_err(|error| {
+            CliError::input(format!("{}, {error}", input.display()))
+                .with_help("check --speed and --rate, or what the file says")
+        })?;
         Ok(kinematics)
     }
 }
@@ -237,43 +232,6 @@ fn in_acceleration(signal: &mut MeasuredSignal) -> Result<(), ComputeError> {
     let values = series.values().to_vec();
     signal.series = TimeSeries::new(series.start_s(), series.step_s(), "m/s^2", values)?;
     Ok(())
-}
-
-/// Share of clipped samples that is said: fewer are a spike or two.
-const CLIPPED: f64 = 1e-3;
-/// Share of a signal that may stand still, and fewest equal samples in a row that are said.
-const STILL: f64 = 0.01;
-const STILL_SAMPLES: f64 = 100.0;
-
-/// What a sensor or a converter did to a signal that is not constant.
-fn flaws(signal: &MeasuredSignal, windows: &[TimeWindow]) -> Vec<String> {
-    let all = [signal.series.span()];
-    let windows = if windows.is_empty() { &all } else { windows };
-    // a window outside the signal is named where it is analysed
-    let parts = windows.iter().filter_map(|window| signal.series.window(window.from, window.to).ok());
-    parts.flat_map(|part| flaws_of(&signal.name, &part)).collect()
-}
-
-fn flaws_of(name: &str, series: &TimeSeries) -> Vec<String> {
-    let samples = series.values().len() as f64;
-    let mut said = Vec::new();
-    let clipped = series.clipped_share();
-    if clipped >= CLIPPED {
-        said.push(format!(
-            "{name}: {} % of the samples stand at the end of a range: clipping makes lines and hides others",
-            significant(100.0 * clipped, 2)
-        ));
-    }
-    let still = series.longest_still();
-    let count = ((still.to - still.from) / series.step_s()).round();
-    if count >= STILL_SAMPLES.max(STILL * samples) && count < samples {
-        said.push(format!(
-            "{name}: nothing changes from {} to {} s: analyse the rest with --window",
-            significant(still.from, 5),
-            significant(still.to, 5)
-        ));
-    }
-    said
 }
 
 /// Filter and windows: what was typed, else what the run's case says.

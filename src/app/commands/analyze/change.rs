@@ -1,6 +1,6 @@
 //! A window of a signal beside an earlier signal of the same machine: what grew.
 
-use super::window::{AnalysisSettings, WindowAnalysis, WindowChange, stretch};
+use super::window::{AnalysisSettings, WindowAnalysis, WindowChange, check_speed, stretch};
 use crate::app::error::ComputeError;
 use crate::formats::MeasuredSignal;
 use crate::numerics::series::{TimeSeries, TimeWindow};
@@ -24,12 +24,23 @@ pub struct EarlierSignal<'a> {
     pub name: &'a str,
     /// The signal.
     pub signal: &'a MeasuredSignal,
-    /// The window of it that counts, s.
-    pub window: TimeWindow,
+    /// The window of it that counts, s; `None`: that of the signal where windows are asked for and it holds them, else all of it.
+    pub window: Option<TimeWindow>,
     /// Speed and orders.
     pub kinematics: &'a Kinematics<'a>,
     /// How it is judged by itself.
     pub settings: &'a AnalysisSettings,
+}
+
+impl EarlierSignal<'_> {
+    /// The window (s) that one of the signal is compared with.
+    fn window_for(&self, settings: &AnalysisSettings, window: &WindowAnalysis) -> TimeWindow {
+        let series = &self.signal.series;
+        let same = TimeWindow { from: window.from, to: window.to };
+        let inside = same.check_inside(series.start_s(), series.step_s(), series.values().len()).is_ok();
+        let same = Some(same).filter(|_| inside && !settings.windows.is_empty());
+        self.window.or(same).unwrap_or_else(|| series.span())
+    }
 }
 
 impl WindowChange {
@@ -64,28 +75,66 @@ impl WindowChange {
     }
 }
 
-/// Compares an analysed window of a signal with an earlier signal, and says in the evidence of each verdict what came of it.
+/// Compares the analysed windows of a signal with an earlier signal, and says in the evidence of each verdict what came of it.
 ///
 /// # Errors
-/// [`ComputeError::Diagnosis`]: a window outside the earlier signal, a shaft that rests in it.
-pub(crate) fn compare_window(
-    window: &mut WindowAnalysis,
+/// [`ComputeError::Diagnosis`]: a window outside the earlier signal, a shaft that rests in it. [`ComputeError::Input`]: another unit, a
+/// shaft that turns more than once in two samples.
+pub fn compare_windows(
+    windows: &mut [WindowAnalysis],
     settings: &AnalysisSettings,
     signal: &MeasuredSignal,
     kinematics: &Kinematics<'_>,
     earlier: &EarlierSignal<'_>,
 ) -> Result<(), ComputeError> {
+    let [expected, found] = [signal, earlier.signal].map(|signal| signal.series.unit());
+    if !expected.is_empty() && !found.is_empty() && expected != found {
+        let what = format!("found {found}, expected {expected} as in the signal that it is compared with");
+        return Err(ComputeError::input(what, "scale one of the two signals to the unit of the other"));
+    }
+    check_speed(earlier.signal, earlier.kinematics)?;
+    for window in windows {
+        let compared = earlier.window_for(settings, window);
+        let mut change = compare_window(window, settings, signal, kinematics, (earlier, compared))?;
+        if expected != found {
+            let (of, unit) = match found.is_empty() {
+                true => (format!("The earlier signal, {},", earlier.name), expected),
+                false => ("The signal".to_owned(), found),
+            };
+            change.warnings.push(format!(
+                "{of} states no unit and is compared as if it were in {unit}: in g or m/s^2, levels would be 19.8 dB apart."
+            ));
+        }
+        let apart = compared.to <= window.from || window.to <= compared.from;
+        if !apart && signal.series.values() == earlier.signal.series.values() {
+            change.warnings.push(format!(
+                "The baseline is the input itself or a copy of it, {}, and the windows overlap: nothing can have grown since.",
+                earlier.name
+            ));
+        }
+        window.change = Some(change);
+    }
+    Ok(())
+}
+
+fn compare_window(
+    window: &mut WindowAnalysis,
+    settings: &AnalysisSettings,
+    signal: &MeasuredSignal,
+    kinematics: &Kinematics<'_>,
+    (earlier, compared): (&EarlierSignal<'_>, TimeWindow),
+) -> Result<WindowChange, ComputeError> {
     let span = TimeWindow { from: window.from, to: window.to };
     let now = with_margins(&signal.series, span)?;
-    let before = with_margins(&earlier.signal.series, earlier.window)?;
-    let part = before.window(earlier.window.from, earlier.window.to)?;
-    let levels = level_changes((&now, span), (&before, earlier.window))?;
+    let before = with_margins(&earlier.signal.series, compared)?;
+    let part = before.window(compared.from, compared.to)?;
+    let levels = level_changes((&now, span), (&before, compared))?;
     let mut change = WindowChange {
         baseline: earlier.name.to_owned(),
         channel: earlier.signal.name.clone(),
-        from: earlier.window.from,
-        to: earlier.window.to,
-        speed_hz: earlier.kinematics.mean_speed_hz(earlier.window),
+        from: compared.from,
+        to: compared.to,
+        speed_hz: earlier.kinematics.mean_speed_hz(compared),
         rms: part.rms(),
         peak: part.peak(),
         kurtosis: part.kurtosis(),
@@ -95,15 +144,15 @@ pub(crate) fn compare_window(
         warnings: Vec::new(),
     };
     if let Ok(diagnosis) = &window.diagnosis {
-        let orders = earlier.kinematics.orders(earlier.window)?;
+        let orders = earlier.kinematics.orders(compared)?;
         let turns = |time| earlier.kinematics.turns(time);
         let within_hz = window.band.judged_hz(settings.band, earlier.settings.good_to_hz);
-        match earlier.settings.judge(&before, within_hz, earlier.window, turns, &orders) {
+        match earlier.settings.judge(&before, within_hz, compared, turns, &orders) {
             Ok(found) => {
                 let turns_now = |time| kinematics.turns(time);
                 let orders_now = kinematics.orders(span)?;
                 let now = ComparedSignal::new(&now, span, turns_now, orders_now, diagnosis);
-                let then = ComparedSignal::new(&before, earlier.window, turns, orders, &found);
+                let then = ComparedSignal::new(&before, compared, turns, orders, &found);
                 change.compare_impacts(&now, &then)?;
             }
             // said below
@@ -139,8 +188,7 @@ pub(crate) fn compare_window(
             diagnosis.grew = strong_growth(diagnosis, &change.lines, settings);
         }
     }
-    window.change = Some(change);
-    Ok(())
+    Ok(change)
 }
 
 /// A window of a series with as much before and after it as it is long, so that its envelope has no edges.
@@ -242,14 +290,9 @@ mod tests {
         let [strong, weak] = [signal(20.0, 1), signal(0.5, 2)];
         let analysed = compute_analysis(std::slice::from_ref(&strong), &settings[0], &kinematics, &Unwatched);
         let mut window = analysed.unwrap().remove(0);
-        let earlier = EarlierSignal {
-            name: "old",
-            signal: &weak,
-            window: weak.series.span(),
-            kinematics: &kinematics,
-            settings: &settings[1],
-        };
-        compare_window(&mut window, &settings[0], &strong, &kinematics, &earlier).unwrap();
+        let earlier =
+            EarlierSignal { name: "old", signal: &weak, window: None, kinematics: &kinematics, settings: &settings[1] };
+        compare_windows(std::slice::from_mut(&mut window), &settings[0], &strong, &kinematics, &earlier).unwrap();
         (window.diagnosis.unwrap().headline(), window.change.unwrap().warnings)
     }
 

@@ -409,7 +409,7 @@ pub struct WindowChange {
 /// `usual_high_pass_hz`.
 ///
 /// # Errors
-/// [`ComputeError`]: a window outside a signal, a filter beyond half the sampling rate.
+/// [`ComputeError`]: a window outside a signal, a filter beyond half the sampling rate, a shaft that turns more than once in two samples.
 pub fn compute_analysis(
     signals: &[MeasuredSignal],
     settings: &AnalysisSettings,
@@ -419,6 +419,7 @@ pub fn compute_analysis(
     watch.stage("analyse");
     let mut windows = Vec::new();
     for signal in signals {
+        check_speed(signal, kinematics)?;
         let series = &signal.series;
         let mut own = settings.clone();
         if own.windows.is_empty() {
@@ -430,6 +431,23 @@ pub fn compute_analysis(
         windows.extend(analyse(&signal.name, &own, read, kinematics)?);
     }
     Ok(windows)
+}
+
+/// Refuses a shaft that turns more than once in two samples.
+///
+/// # Errors
+/// [`ComputeError::Input`].
+pub(crate) fn check_speed(signal: &MeasuredSignal, kinematics: &Kinematics) -> Result<(), ComputeError> {
+    let (series, speed_hz) = (&signal.series, kinematics.mean_speed_hz(signal.series.span()));
+    if speed_hz < 0.5 * series.rate_hz() {
+        return Ok(());
+    }
+    let what = format!(
+        "channel \"{}\": expected a shaft speed below half of the sampling rate, {:e} Hz, found {speed_hz:e} Hz",
+        signal.name,
+        series.rate_hz()
+    );
+    Err(ComputeError::input(what, "check speed and sampling rate, as given or as the file says"))
 }
 
 /// The stretch of a series that holds a window, with so many seconds before and after it as there are.

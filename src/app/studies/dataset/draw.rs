@@ -8,6 +8,7 @@ use super::hierarchy::{Label, Specimen};
 use super::level::{Level, plain_key, stream};
 use super::plan::DatasetPlan;
 use super::spec::DamageSpec;
+use crate::app::case::{Case, Source};
 use crate::app::error::ComputeError;
 use crate::numerics::random::Stream;
 use serde_json::{Map, Value};
@@ -70,7 +71,7 @@ impl DatasetPlan {
                 draws.drawn.insert(key.clone(), value);
             }
         }
-        let faults = self.faults(entry, specimen, &mut |name, keys: &Distribution| {
+        let faults = self.faults(entry, specimen, &set, &mut |name, keys: &Distribution| {
             keys.draw(&mut stream(spec.seed, Level::Specimen, specimen_number, name))
         });
         let mut mount = stream(spec.seed, Level::Specimen, specimen_number, "recorder.path");
@@ -118,11 +119,23 @@ impl DatasetPlan {
         Signal { number, specimen_number, specimen, entry, set, faults, drawn: draws.drawn, recorder, noise }
     }
 
-    /// Damage of a specimen, an item of `bearing.defects` each.
+    /// Number of balls of the bearing with the faults, where these keys of its case are drawn.
+    fn balls(&self, entry: usize, set: &[String]) -> usize {
+        let of = |case: &Case| case.seats().get(self.seat(entry)).and_then(|seat| Some(seat.bearing?.balls));
+        let base = &self.cases[entry];
+        let sound = base.seats().get(self.seat(entry)).map(|seat| format!("{}=[]", seat.key("bearing.defects")));
+        let set = set.iter().cloned().chain(sound).collect();
+        let drawn = Case::from_source(Source { set, ..base.source.clone() });
+        // what makes no case is told where the signal is computed
+        drawn.ok().as_ref().and_then(of).or_else(|| of(base)).unwrap_or(1)
+    }
+
+    /// Damage of a specimen, with these keys of its case drawn: an item of `bearing.defects` each.
     fn faults(
         &self,
         entry: usize,
         specimen: Specimen,
+        set: &[String],
         draw: &mut dyn FnMut(&str, &Distribution) -> Value,
     ) -> Vec<Value> {
         let parts = self.spec.fault_of(entry).parts();
@@ -139,8 +152,6 @@ impl DatasetPlan {
             }
             one => there.into_iter().filter(|(part, _)| *part == one.name()).collect(),
         };
-        let seats = self.cases[entry].seats();
-        let balls = seats.get(self.seat(entry)).and_then(|seat| Some(seat.bearing?.balls)).unwrap_or(1);
         let one = |(part, damage): (&str, &DamageSpec)| {
             let mut table = Map::new();
             table.insert("on".to_owned(), part.into());
@@ -148,7 +159,7 @@ impl DatasetPlan {
                 table.insert(key.to_owned(), draw(&format!("fault.{part}.{key}"), distribution));
             }
             if part == "ball" && damage.ball.is_none() {
-                let any = Distribution::any_of((0..balls).map(Value::from));
+                let any = Distribution::any_of((0..self.balls(entry, set)).map(Value::from));
                 table.insert("ball".to_owned(), draw("fault.ball.ball", &any));
             }
             Value::Object(table)

@@ -1,0 +1,43 @@
+//! What is wrong with a signal before anything is judged: clipped samples, stretches that stand still.
+
+use crate::formats::MeasuredSignal;
+use crate::numerics::series::{TimeSeries, TimeWindow};
+use crate::report::significant;
+
+/// Share of clipped samples that is said: fewer are a spike or two.
+const CLIPPED: f64 = 1e-3;
+/// Share of a signal that may stand still, and fewest equal samples in a row that are said.
+const STILL: f64 = 0.01;
+const STILL_SAMPLES: f64 = 100.0;
+
+/// What a sensor or a converter did to a signal that is not constant, in its windows (s) or as a whole: a sentence each.
+#[must_use]
+pub fn signal_flaws(signal: &MeasuredSignal, windows: &[TimeWindow]) -> Vec<String> {
+    let all = [signal.series.span()];
+    let windows = if windows.is_empty() { &all } else { windows };
+    // a window outside the signal is named where it is analysed
+    let parts = windows.iter().filter_map(|window| signal.series.window(window.from, window.to).ok());
+    parts.flat_map(|part| flaws_of(&signal.name, &part)).collect()
+}
+
+fn flaws_of(name: &str, series: &TimeSeries) -> Vec<String> {
+    let samples = series.values().len() as f64;
+    let mut said = Vec::new();
+    let clipped = series.clipped_share();
+    if clipped >= CLIPPED {
+        said.push(format!(
+            "{name}: {} % of the samples stand at the end of a range: clipping makes lines and hides others",
+            significant(100.0 * clipped, 2)
+        ));
+    }
+    let still = series.longest_still();
+    let count = ((still.to - still.from) / series.step_s()).round();
+    if count >= STILL_SAMPLES.max(STILL * samples) && count < samples {
+        said.push(format!(
+            "{name}: nothing changes from {} to {} s: analyse the rest alone",
+            significant(still.from, 5),
+            significant(still.to, 5)
+        ));
+    }
+    said
+}
