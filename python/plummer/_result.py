@@ -21,6 +21,8 @@ class Computed(Protocol):
 
     def html(self) -> str: ...
 
+    def write_report(self, folder: str | os.PathLike[str]) -> None: ...
+
 
 def framed(page: str) -> str:
     """A page in a frame of its own, whose scripts and styles stay apart from those of a notebook."""
@@ -51,12 +53,12 @@ class Result:
         return framed(self.html)
 
     def save(self, folder: str | os.PathLike[str]) -> Path:
-        """Writes into a folder, and gives it: ``report.html``, the summary as ``COMMAND.json``, and the arrays as the command names
-        them, ``modes.npz``, ``superelement.npz`` or ``signals.npz``."""
+        """Writes into a folder, and gives it: ``report.html`` with its tables and figures, the summary as ``COMMAND.json``, and the arrays
+        as the command names them, ``modes.npz``, ``superelement.npz`` or ``signals.npz``."""
         path = Path(folder)
         path.mkdir(parents=True, exist_ok=True)
         self._write(path)
-        (path / "report.html").write_text(self.html, encoding="utf-8")
+        self._computed.write_report(path)
         (path / f"{self.summary['command']}.json").write_text(json.dumps(self.summary, indent=2) + "\n", encoding="utf-8")
         return path
 

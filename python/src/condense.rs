@@ -81,4 +81,8 @@ impl Superelement {
     fn html(&self, py: Python<'_>) -> PyResult<String> {
         page::html(py, "condense", &self.case, &self.result)
     }
+
+    fn write_report(&self, py: Python<'_>, folder: PathBuf) -> PyResult<()> {
+        page::write(py, &folder, "condense", &self.case, &self.result)
+    }
 }

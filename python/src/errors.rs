@@ -30,6 +30,11 @@ pub(crate) fn of(py: Python<'_>, error: impl Into<ComputeError>) -> PyErr {
     exception(py, class, what, help)
 }
 
+/// What the command line says of files.
+pub(crate) fn of_command(py: Python<'_>, CliError { is_input, what, help }: CliError) -> PyErr {
+    exception(py, if is_input { "InputError" } else { "ComputationError" }, what, help)
+}
+
 /// Wrong input of this interface itself.
 pub(crate) fn input(py: Python<'_>, what: impl Display, help: Option<&str>) -> PyErr {
     exception(py, "InputError", what.to_string(), help.map(str::to_owned))

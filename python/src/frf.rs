@@ -7,6 +7,7 @@ use plummer::fe::reduction::frf::FrfQuantity;
 use plummer::prelude::{Case, ComputeError};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
+use std::path::PathBuf;
 use std::sync::Arc;
 
 /// Transfer paths of a case.
@@ -53,5 +54,9 @@ impl Frf {
 
     fn html(&self, py: Python<'_>) -> PyResult<String> {
         page::html(py, "frf", &self.case, &self.result)
+    }
+
+    fn write_report(&self, py: Python<'_>, folder: PathBuf) -> PyResult<()> {
+        page::write(py, &folder, "frf", &self.case, &self.result)
     }
 }

@@ -69,4 +69,8 @@ impl Modes {
     fn html(&self, py: Python<'_>) -> PyResult<String> {
         page::html(py, "modes", &self.case, &self.result)
     }
+
+    fn write_report(&self, py: Python<'_>, folder: PathBuf) -> PyResult<()> {
+        page::write(py, &folder, "modes", &self.case, &self.result)
+    }
 }

@@ -1,10 +1,12 @@
 //! What all results have: the content of the command's JSON file, and the report.
 
 use crate::{errors, values};
+use plummer::app::cli::write_report;
 use plummer::app::commands::result::VERSION;
 use plummer::prelude::{Case, Computed};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
+use std::path::Path;
 
 /// The content of `COMMAND.json` but for what only a process has: times, threads, files.
 pub(crate) fn summary<'py>(
@@ -25,4 +27,10 @@ pub(crate) fn summary<'py>(
 /// The report as one page of HTML.
 pub(crate) fn html(py: Python<'_>, command: &str, case: &Case, result: &impl Computed) -> PyResult<String> {
     result.page(case, &format!("case.{command}()")).map_err(|error| errors::of(py, error))
+}
+
+/// Writes the report into a folder that is there, its tables and figures beside it.
+pub(crate) fn write(py: Python<'_>, folder: &Path, command: &str, case: &Case, result: &impl Computed) -> PyResult<()> {
+    let report = result.report(case, &format!("case.{command}()")).map_err(|error| errors::of(py, error))?;
+    write_report(folder, command, case, report).map_err(|error| errors::of_command(py, error))
 }

@@ -8,6 +8,7 @@ use plummer::app::commands::run::{RunEnd, RunResult, Simulation, compute_kept_ru
 use plummer::prelude::Case;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
+use std::path::PathBuf;
 use std::sync::{Arc, Mutex, PoisonError};
 
 /// A run of a case.
@@ -111,5 +112,9 @@ impl Run {
 
     fn html(&self, py: Python<'_>) -> PyResult<String> {
         page::html(py, "run", &self.case, &self.result)
+    }
+
+    fn write_report(&self, py: Python<'_>, folder: PathBuf) -> PyResult<()> {
+        page::write(py, &folder, "run", &self.case, &self.result)
     }
 }

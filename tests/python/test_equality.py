@@ -94,6 +94,12 @@ def test_python_and_program_say_the_same(command: str, name: str, program: Progr
         assert (folder / file).exists() == (saved / file).exists()
         if (folder / file).exists():
             same_arrays(saved / file, folder / file)
+    for part in ("tables", "figures"):
+        assert content(saved / part) == content(folder / part), part
+
+
+def content(folder: Path) -> dict[str, bytes]:
+    return {path.name: path.read_bytes() for path in folder.iterdir()} if folder.exists() else {}
 
 
 def same_arrays(python: Path, program: Path) -> None:

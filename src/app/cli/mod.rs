@@ -46,6 +46,7 @@ pub use failure::CliError;
 pub use output::{Outcome, OutputFolder};
 pub(crate) use output::{emit, write_atomic};
 pub use progress::Progress;
+pub use report::write_report;
 use results::Job;
 pub use share::Share;
 pub use sweep::SweepArguments;

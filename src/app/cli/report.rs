@@ -86,6 +86,14 @@ pub(crate) fn report(from: &Path, options: &Options) -> Result<Outcome, CliError
     })
 }
 
+/// Writes what a command writes of its report into a folder that is there: the page, its content, tables and figures.
+///
+/// # Errors
+/// [`CliError`] when its contents do not fit together or a file cannot be written.
+pub fn write_report(folder: &Path, command: &str, case: &Case, report: Report) -> Result<(), CliError> {
+    ReportFiles::without_case(&OutputFolder::at(folder), command, with_details(report, case)).map(|_| ())
+}
+
 /// What was written of a report, and what it rests on.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(super) struct ReportFiles {
