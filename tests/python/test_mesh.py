@@ -97,8 +97,10 @@ def test_arrays_that_are_no_mesh_are_refused() -> None:
     ]:
         with pytest.raises(plummer.MeshError, match=words):
             plummer.Mesh.from_arrays(square, cells, groups)
-    with pytest.raises(plummer.MeshError, match=r"shape \[4, 1\]"):
+    with pytest.raises(plummer.MeshError, match=r"shape \(4, 1\), expected \[nodes, 3\]"):
         plummer.Mesh.from_arrays([[0], [1], [2], [3]], {"quad": [[0, 1, 2, 3]]})
+    with pytest.raises(plummer.MeshError, match=r"points: node 2 is at \[1.0, nan\], expected finite numbers"):
+        plummer.Mesh.from_arrays([*square[:2], [1, np.nan], square[3]], {"quad": [[0, 1, 2, 3]]})
     with pytest.raises(plummer.MeshError, match="order: found 'abaqus'"):
         plummer.Mesh.from_arrays(square, {"quad": [[0, 1, 2, 3]]}, order="abaqus")
     mask = plummer.Mesh.from_arrays(square, {"quad": [[0, 1, 2, 3]]}, {"plate": {"quad": [True]}})
