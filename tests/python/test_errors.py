@@ -73,6 +73,21 @@ def test_what_the_command_calls_bad_is_no_silent_result() -> None:
         plummer.analyze(noise, rate_hz=12000, bearing="6205", speed_hz=0)
 
 
+def test_a_run_that_cannot_be_trusted_warns() -> None:
+    # a condensed housing of a few vectors
+    few = ["condense.fixed_interface_modes=20", "transient.end=2e-3", "analysis={}"]
+    case = plummer.Case.load("examples/housings/pillow_block.toml", set=few)
+    with pytest.warns(plummer.UntrustedWarning, match="the signals cannot be trusted"):
+        assert case.run().distrust
+
+
+def test_a_specification_that_is_wrong_is_wrong_input(tmp_path: Path) -> None:
+    with pytest.raises(plummer.InputError, match="cannot read the specification nothing.toml"):
+        plummer.dataset("nothing.toml", tmp_path)
+    with pytest.raises(plummer.InputError, match="set: found 'seed=2'"):
+        plummer.dataset("examples/datasets/two_machines.toml", tmp_path, set="seed=2")  # type: ignore[arg-type]
+
+
 def test_a_signal_or_a_speed_of_another_kind_is_refused() -> None:
     signal = np.random.default_rng(1).standard_normal(24000)
     asked: dict[str, Any] = {"rate_hz": 12000, "bearing": 6205, "speed_hz": np.float32(29.95)}
