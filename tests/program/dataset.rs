@@ -123,10 +123,26 @@ fn bytes_do_not_depend_on_threads_tasks_and_stops() {
     assert_eq!(dataset(&folder, &["tasks", "--task", "2/2"]).0, 0);
     let (code, said) = dataset(&folder, &["tasks", "--merge"]);
     assert_eq!(code, 1, "{said}");
-    assert!(said.contains("2 of 4 files are not there: signals-00000.npz, signals-00002.npz"), "{said}");
+    assert!(
+        said.contains("2 of 4 files are not there or were changed: signals-00000.npz, signals-00002.npz"),
+        "{said}"
+    );
     assert_eq!(dataset(&folder, &["tasks", "--task", "1/2"]).0, 0);
     assert_eq!(dataset(&folder, &["tasks", "--merge"]).0, 0);
     same(&one, &content(&folder.join("tasks")));
+    // what is named in the place of the folder
+    for words in [["spec.toml", "--merge"].as_slice(), &["spec.toml", "--task", "1/2"], &[".", "--merge"]] {
+        let (code, said) = dataset(&folder, words);
+        assert!(code == 2 && said.contains("name the folder that `plummer dataset SPEC.toml` wrote"), "{said}");
+    }
+    // a label that was changed by hand
+    let edited = folder.join("tasks/dataset/00002.json");
+    let text = fs::read_to_string(&edited).unwrap();
+    let label = text.lines().find(|line| line.contains("\"label\"")).unwrap();
+    fs::write(&edited, text.replacen(label, "\"label\": \"several\",", 1)).unwrap();
+    let (code, said) = dataset(&folder, &["tasks", "--merge"]);
+    assert!(code == 1 && said.contains("1 of 4 files are not there or were changed: signals-00002.npz"), "{said}");
+    same(&one, &whole("tasks", &["--resume"]));
     // a file that is lost, one that is damaged, one whose record is lost
     let at = folder.join("two");
     fs::remove_file(at.join("signals-00000.npz")).unwrap();
@@ -141,12 +157,24 @@ fn bytes_do_not_depend_on_threads_tasks_and_stops() {
     }
     let (code, said) = dataset(&folder, &["spec.toml", "--out", "two", "--resume"]);
     assert!(code == 2 && said.contains("was begun with 9 signals: expected as many or more, found 8"), "{said}");
+    let (code, said) = dataset(&folder, &["spec.toml", "--out", "two", "--resume", "--count", "9", "--set", "seed=8"]);
+    assert!(code == 2 && said.contains("begun with something else: no --set, now --set seed=8"), "{said}");
     fs::write(folder.join("spec.toml"), spec.replace("seed = 7", "seed = 8")).unwrap();
     let (code, said) = dataset(&folder, &["spec.toml", "--out", "two", "--resume"]);
     assert!(code == 2 && said.contains("was begun with something else: another specification"), "{said}");
     let other = whole("two", &["--force"]);
     assert!(other["signals-00000.npz"] != one["signals-00000.npz"]);
     assert!(!other.contains_key("signals-00004.npz"), "of the data set before");
+    // files of another program by the names of these
+    for name in ["signals-00000.npz", "manifest.csv", "dataset/00000.json"] {
+        let strange = folder.join("strange");
+        fs::create_dir_all(strange.join("dataset")).unwrap();
+        fs::write(strange.join(name), "mine").unwrap();
+        let (code, said) = dataset(&folder, &["spec.toml", "--out", "strange"]);
+        assert!(code == 2 && said.contains(&format!("strange has {name} by the names of results")), "{said}");
+        assert_eq!(fs::read_to_string(strange.join(name)).unwrap(), "mine");
+        fs::remove_dir_all(strange).unwrap();
+    }
 }
 
 /// Amplitude of the squared signal at the first harmonics of a frequency, Hz.
@@ -227,6 +255,53 @@ fn a_signal_that_cannot_be_computed_has_its_reason() {
     assert_eq!(signals(&folder.join("out/signals-00000.npz")).len() as u64, there);
     let csv = fs::read_to_string(folder.join("out/manifest.csv")).unwrap();
     assert_eq!(csv.lines().count(), 9);
+    // what samples cannot hold
+    let tones = "tones = [{ order = { choice = [2, 500] }, rms = 1 }]";
+    let spec = SPEC.replace("bits = 16\nfull_scale = 2000", "gain = { choice = [1, 1e38, 1e-45] }");
+    fs::write(folder.join("spec.toml"), spec.replace("[noise]", &format!("[noise]\n{tones}"))).unwrap();
+    let (code, said) = dataset(&folder, &["spec.toml", "--out", "held"]);
+    assert_eq!(code, 1, "{said}");
+    let mut seen = BTreeSet::new();
+    for signal in json(&folder.join("held/manifest.json"))["signals"].as_array().unwrap() {
+        let [order, gain] = ["noise.tones.0.order", "recorder.gain"].map(|key| signal["drawn"][key].as_f64().unwrap());
+        let expected = match (order > 2.0, gain > 1.0) {
+            (true, _) => "a tone of order 500 is at ",
+            (false, true) => "m/s^2: 32 bits hold 1.2e-38 to 3.4e38",
+            (false, false) => "",
+        };
+        let reason = signal["reason"].as_str().unwrap_or_default();
+        assert!(reason.contains(expected) && reason.is_empty() == expected.is_empty(), "{signal}");
+        assert_eq!(signal["file"].is_null(), !expected.is_empty(), "{signal}");
+        seen.insert(expected);
+    }
+    assert_eq!(seen.len(), 3, "{seen:?}");
+}
+
+#[test]
+fn parts_share_no_background() {
+    const GAIN: f64 = 1e6;
+    let spec = SPEC.replace("bits = 16\nfull_scale = 2000", "");
+    let spec = spec.replace("[noise]", &format!("[noise]\nbackground = {{ file = \"ramp.csv\", gain = {GAIN:?} }}"));
+    let folder = folder("background", &spec);
+    let rows: Vec<String> = (0..2400).map(|row| format!("{:?},{row}\n", f64::from(row) / 12e3)).collect();
+    fs::write(folder.join("ramp.csv"), format!("time,x (m/s^2)\n{}", rows.concat())).unwrap();
+    let (code, said) = dataset(&folder, &["spec.toml", "--out", "out"]);
+    assert_eq!(code, 2, "{said}");
+    let told =
+        "found 0.2000 s, of which validation has 0.03000 s, expected at least 0.3333 s: 0.05000 s for validation";
+    assert!(said.contains(told), "{said}");
+    let (code, said) = dataset(&folder, &["spec.toml", "--out", "out", "--set", "split={train=1,test=1}"]);
+    assert_eq!(code, 0, "{said}");
+    let samples = signals(&folder.join("out/signals-00000.npz"));
+    let mut places: BTreeMap<String, BTreeSet<i64>> = BTreeMap::new();
+    for (signal, samples) in json(&folder.join("out/manifest.json"))["signals"].as_array().unwrap().iter().zip(samples)
+    {
+        let part = places.entry(signal["split"].as_str().unwrap().to_owned()).or_default();
+        part.extend(samples.iter().map(|sample| (sample / GAIN + 1199.5).round() as i64));
+    }
+    let [test, train] = [&places["test"], &places["train"]];
+    assert!(train.iter().all(|place| (0..1200).contains(place)), "{train:?}");
+    assert!(test.iter().all(|place| (1200..2400).contains(place)), "{test:?}");
 }
 
 #[test]
@@ -298,11 +373,39 @@ fn what_is_wrong_is_named_with_its_place() {
         ),
         ("case = \"ring.toml\"", "case = \"gear.toml\"", "cannot read the case file gear.toml"),
         ("seed = 7", "seed = -7", "`seed`: found -7, expected a whole number, 0 or more"),
+        (
+            "snr_db = 20",
+            "snr_db = 20\ntones = [{ hz = { uniform = [50, 6000] }, rms = 2 }]",
+            "`noise.tones[0].hz`: found 6000, expected a frequency below half of recorder.rate_hz (6000)\nhelp: it would appear",
+        ),
+        ("snr_db = 20", "snr_db = 1e6", "`noise.snr_db`: found 1000000, expected -200 to 200 dB"),
+        (
+            "duration_s = 0.05",
+            "duration_s = 1e6",
+            "found 1000000 s, which is 12000000000 samples at rate_hz, expected a time of 2 to 1e9 samples",
+        ),
+        (
+            "count = 2\n",
+            "count = 1000000000000\n",
+            "`machines`: found 1000000000001 machines by count, expected at most 1000000",
+        ),
+        ("count = 8", "count = 100000000", "`count`: found 100000000, expected a number from 1 to 10000000"),
+        (
+            "{ uniform = [1e-6, 3e-6] }",
+            "{ repeat = 10000, of = { repeat = 10000, of = 1 } }",
+            "found 100000000 values, expected at most 100000 values of one key",
+        ),
         ("snr_db = 20", "snr_db = 20\nbackground = { file = \"none.npz\", gain = 1 }", "none.npz"),
     ] {
         let said = refused(from, to);
         assert!(said.contains(told), "{to}: {said}");
     }
+    let folder = folder("refused", SPEC);
+    let (code, said) = dataset(&folder, &["spec.toml", "--count", "100000000"]);
+    assert!(code == 2 && said.contains("found --count 100000000, expected at most 10000000"), "{said}");
+    fs::write(folder.join("spec.toml"), "seed = 1").unwrap();
+    let (code, said) = dataset(&folder, &["spec.toml"]);
+    assert!(code == 2 && said.contains("the specification lacks the required key `machines`"), "{said}");
 }
 
 #[test]

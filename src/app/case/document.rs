@@ -88,7 +88,10 @@ impl<'a> Document<'a> {
 
     /// Turns the decoder's fault into an error with its place.
     pub(super) fn error(&self, fault: Fault) -> CaseError {
-        let what = format!("{}`{}`{}", fault.before, fault.key(), fault.after);
+        let key = fault.key();
+        // a case requires no key of its root
+        let key = if key.is_empty() { "the specification".to_owned() } else { format!("`{key}`") };
+        let what = format!("{}{key}{}", fault.before, fault.after);
         CaseError::at(self.marked(fault.mark), what).with_help(fault.help).with_valid(fault.valid)
     }
 }

@@ -4,7 +4,8 @@ mod arguments;
 
 pub use arguments::DatasetArguments;
 
-use super::earlier_results::result_of;
+use super::analyze::warn;
+use super::earlier_results::{refuse_foreign, result_of};
 use super::output::json;
 use super::share::Share;
 use super::sweep::{MOST_TASKS, job_scripts};
@@ -52,7 +53,7 @@ pub(super) fn dataset(asked: &DatasetArguments, options: &Options) -> Result<Out
             let plan = begun_in(&folder)?;
             let other = |path: &Path| result_of("dataset", path).is_null().then_some("");
             folder.claim_unless(&["manifest.json"], options.force, other)?;
-            merge(&plan, &folder, None)
+            merge(&plan, &folder, None, options)
         }
         _ => whole(asked, options, &progress),
     };
@@ -87,7 +88,7 @@ fn whole(asked: &DatasetArguments, options: &Options, progress: &Progress) -> Re
         return job_scripts(RECORDS, (plan.shards(), "files"), &folder, tasks, options);
     }
     let pace = compute(&plan, &folder, Share::WHOLE, options, progress)?;
-    merge(&plan, &folder, Some(pace))
+    merge(&plan, &folder, Some(pace), options)
 }
 
 fn task(from: &Path, share: Share, options: &Options, progress: &Progress) -> Result<Outcome, CliError> {
@@ -112,16 +113,23 @@ fn begin(folder: &OutputFolder, force: bool) -> Result<(), CliError> {
             .with_help("go on with --resume, replace it with --force, or choose another folder with --out"));
     }
     folder.claim("manifest", force)?;
-    if there {
+    let names_in = |folder: &Path| {
+        let entries = fs::read_dir(folder).into_iter().flatten().flatten();
+        entries.filter_map(|entry| entry.file_name().into_string().ok()).collect::<Vec<_>>()
+    };
+    let of_signals = |name: &String| {
+        name.starts_with("signals-") && [".npz", ".parquet", ".partial"].iter().any(|ending| name.ends_with(ending))
+    };
+    let mut names: Vec<String> = names_in(&folder.path).into_iter().filter(of_signals).collect();
+    if !there && !force {
+        // what is left of a plan that was not written to its end is nobody's
+        names.extend(names_in(&records).into_iter().map(|name| format!("{RECORDS}/{name}")));
+        refuse_foreign(&folder.path, names.into_iter().filter(|name| !name.ends_with(".partial")).collect())?;
+    } else if there {
         // a folder that has a plan is a data set's own
-        for entry in fs::read_dir(&folder.path).into_iter().flatten().flatten() {
-            let name = entry.file_name();
-            let name = name.to_string_lossy();
-            if name.starts_with("signals-")
-                && [".npz", ".parquet", ".partial"].iter().any(|ending| name.ends_with(ending))
-            {
-                fs::remove_file(entry.path()).map_err(ComputeError::io(&entry.path()))?;
-            }
+        for name in names {
+            let path = folder.path.join(name);
+            fs::remove_file(&path).map_err(ComputeError::io(&path))?;
         }
         fs::remove_dir_all(&records).map_err(|error| CliError::folder(&records, &error))?;
     }
@@ -146,7 +154,7 @@ fn write_begun(folder: &OutputFolder, plan: &DatasetPlan) -> Result<(), CliError
 fn read_begun(folder: &OutputFolder) -> Result<Begun, ComputeError> {
     let path = plan_file(folder);
     let text = fs::read(&path).map_err(|error| match error.kind() {
-        std::io::ErrorKind::NotFound => ComputeError::input(
+        std::io::ErrorKind::NotFound | std::io::ErrorKind::NotADirectory => ComputeError::input(
             format!("{} holds no data set: there is no plan {}", folder.path.display(), path.display()),
             "name the folder that `plummer dataset SPEC.toml` wrote",
         ),
@@ -220,11 +228,17 @@ fn compute(
 }
 
 /// Writes the manifest of the shards, last as JSON.
-fn merge(plan: &DatasetPlan, folder: &OutputFolder, pace: Option<Pace>) -> Result<Outcome, CliError> {
+fn merge(
+    plan: &DatasetPlan,
+    folder: &OutputFolder,
+    pace: Option<Pace>,
+    options: &Options,
+) -> Result<Outcome, CliError> {
     let manifest = plan.manifest(&folder.path).map_err(|missing| {
         let names: Vec<String> = missing.iter().take(5).map(|shard| DatasetPlan::file_name(*shard)).collect();
         let more = if missing.len() > names.len() { " and others" } else { "" };
-        let what = format!("{} of {} files are not there: {}{more}", missing.len(), plan.shards(), names.join(", "));
+        let names = names.join(", ");
+        let what = format!("{} of {} files are not there or were changed: {names}{more}", missing.len(), plan.shards());
         CliError::failed(what).with_help("submit the job array again, or go on with --resume")
     })?;
     let table = manifest.table()?;
@@ -232,6 +246,7 @@ fn merge(plan: &DatasetPlan, folder: &OutputFolder, pace: Option<Pace>) -> Resul
     let parquet = folder.path.join("manifest.parquet");
     write_parquet(&parquet, &table.to_parquet())?;
     let (path, result) = folder.write_json("manifest.json", &manifest)?;
+    warn(plan.inaccurate(&manifest).as_slice(), options);
     let files = manifest.files.iter().map(|file| folder.path.join(&file.path));
     Ok(Outcome {
         summary: summary(&manifest, plan, pace),
@@ -261,11 +276,11 @@ fn summary(manifest: &Manifest<'_>, plan: &DatasetPlan, pace: Option<Pace>) -> S
     };
     let table = Table::new("Signals", columns).rows(there.map(row));
     let mut lines = vec![table.plain()];
-    let worst = manifest.signals.iter().filter_map(|signal| signal.estimated_error).fold(0.0, f64::max);
-    lines.push(format!(
-        "largest estimated error of a signal, while nearby solutions stay together: {}",
-        significant(worst, 2)
-    ));
+    if plan.inaccurate(manifest).is_none() {
+        let worst = manifest.signals.iter().filter_map(|signal| signal.estimated_error).fold(0.0, f64::max);
+        let what = "largest estimated error of a signal, while nearby solutions stay together";
+        lines.push(format!("{what}: {}", significant(worst, 2)));
+    }
     if let Some(Pace { signals, wall_s }) = pace.filter(|pace| pace.signals > 0) {
         let simulated = signals as f64 * (manifest.samples as f64 / manifest.rate_hz + plan.spec.recorder.settle_s);
         lines.push(format!(

@@ -172,7 +172,7 @@ fn compute(
 fn read_plan(folder: &OutputFolder) -> Result<Plan, ComputeError> {
     let plan = folder.path.join(POINTS).join(PLAN);
     let text = fs::read(&plan).map_err(|error| match error.kind() {
-        std::io::ErrorKind::NotFound => ComputeError::input(
+        std::io::ErrorKind::NotFound | std::io::ErrorKind::NotADirectory => ComputeError::input(
             format!("{} holds no sweep: there is no plan {}", folder.path.display(), plan.display()),
             "name the folder that `plummer sweep CASE.toml --vary ...` wrote",
         ),

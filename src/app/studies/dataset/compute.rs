@@ -16,6 +16,7 @@ use crate::numerics::series::{TimeWindow, root_mean_square};
 use crate::signal::diagnosis::{Fault, Kinematics};
 use sha2::{Digest, Sha256};
 use std::collections::BTreeMap;
+use std::f64::consts::TAU;
 use std::path::Path;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
@@ -232,8 +233,12 @@ impl DatasetPlan {
             return Ok(Err(format!("{} of {} samples", samples.len(), recorder.samples)));
         }
         let shaft = run.bearings.first().map(|(cage, ..)| cage.shaft());
+        let fastest_hz = shaft.map_or(0.0, |shaft| shaft.fastest(window.from, window.to) / TAU);
+        if let Some(reason) = signal.noise.folded(fastest_hz, 0.5 * recorder.rate_hz) {
+            return Ok(Err(reason));
+        }
         let around = Around {
-            background: self.background(),
+            background: self.background_of(signal.specimen.part),
             step_s: 1.0 / recorder.rate_hz,
             shaft: &|time| shaft.map_or(0.0, |shaft| shaft.angle(from + time)),
         };

@@ -8,8 +8,9 @@ use std::borrow::Cow;
 
 /// Draws that are tried before an interval is taken for so narrow that the normal distribution is even there.
 const MOST_TRIES: usize = 1000;
-/// Most items of an array that is drawn.
+/// Most items of one `repeat`, and most values of a key.
 const MOST_ITEMS: u64 = 10_000;
+const MOST_VALUES: usize = 100_000;
 
 /// What a value is drawn from.
 #[derive(Debug, Clone, PartialEq)]
@@ -28,7 +29,7 @@ pub(crate) enum Distribution {
     Normal { mean: f64, deviation: f64, within: Option<[f64; 2]> },
     /// One of these by their weights.
     Choice(Vec<(f64, Self)>),
-    /// So many of one kind.
+    /// So many of one kind; one key has at most 100000 values.
     Repeat(usize, Box<Self>),
 }
 
@@ -143,6 +144,29 @@ impl Distribution {
         }
     }
 
+    /// Values that are drawn at once, at most; an empty array or table counts as one.
+    fn values(&self) -> usize {
+        let sum =
+            |items: &mut dyn Iterator<Item = &Self>| items.fold(0_usize, |sum, of| sum.saturating_add(of.values()));
+        let values = match self {
+            Self::Array(items) => sum(&mut items.iter()),
+            Self::Table(entries) => sum(&mut entries.iter().map(|(_, of)| of)),
+            Self::Repeat(count, of) => of.values().saturating_mul(*count),
+            Self::Choice(items) => items.iter().map(|(_, of)| of.values()).max().unwrap_or(0),
+            Self::Fixed(_) | Self::Uniform(_) | Self::LogUniform(_) | Self::Normal { .. } => 1,
+        };
+        values.max(1)
+    }
+
+    /// As [`read`](Self::read), with a limit of what is drawn.
+    fn read_limited(value: Value) -> Result<Self, Refused> {
+        let read = Self::read(value)?;
+        match read.values() {
+            0..=MOST_VALUES => Ok(read),
+            values => Err((format!("{values} values"), "at most 100000 values of one key, those of `repeat` counted")),
+        }
+    }
+
     /// The least and the largest number that it can draw; of a normal distribution without bounds no bound. `None` if it draws others.
     fn range(&self) -> Option<[f64; 2]> {
         match self {
@@ -181,7 +205,7 @@ impl Amount {
 impl<'de> Deserialize<'de> for Distribution {
     fn deserialize<D: Deserializer<'de>>(from: D) -> Result<Self, D::Error> {
         let refused = |(found, expected): Refused| D::Error::invalid_value(Unexpected::Other(&found), &expected);
-        Self::read(Value::deserialize(from)?).map_err(refused)
+        Self::read_limited(Value::deserialize(from)?).map_err(refused)
     }
 }
 
@@ -302,8 +326,10 @@ mod tests {
             (json!({ "repeat": 2 }), "one of { uniform"),
             (json!({ "repeat": -1, "of": 1 }), "a count from 0"),
             (json!([{ "uniform": [3, 1] }]), "two numbers, the lower one first"),
+            ((0..60).fold(json!(1), |of, _| json!({ "repeat": 2, "of": of })), "at most 100000 values"),
+            (json!({ "repeat": 10000, "of": { "repeat": 11, "of": [] } }), "at most 100000 values"),
         ] {
-            let (_, found) = Distribution::read(value.clone()).unwrap_err();
+            let (_, found) = Distribution::read_limited(value.clone()).unwrap_err();
             assert!(found.starts_with(expected), "{value}: {found}");
         }
     }

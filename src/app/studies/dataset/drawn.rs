@@ -42,7 +42,7 @@ pub(super) struct Noise {
     pub(super) coloured: Option<(Loudness, f64, Stream)>,
     /// Share by which it swells with the orders of the shaft from 1 on, and their phases, rad.
     pub(super) modulation: [[f64; 2]; 3],
-    /// How loud, and where it begins between the first and the last place, 0 to 1.
+    /// How loud, and where it begins between the first and the last place of its part's stretch, 0 to 1.
     pub(super) background: Option<(Loudness, f64)>,
     pub(super) tones: Vec<Tone>,
 }

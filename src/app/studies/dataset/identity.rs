@@ -60,7 +60,10 @@ impl DatasetIdentity {
             changes.push("another specification".to_owned());
         }
         if self.set != now.set {
-            let words = |set: &[String]| set.iter().map(|set| format!("--set {set}")).collect::<Vec<_>>().join(" ");
+            let words = |set: &[String]| match set {
+                [] => "no --set".to_owned(),
+                set => set.iter().map(|set| format!("--set {set}")).collect::<Vec<_>>().join(" "),
+            };
             changes.push(format!("{}, now {}", words(&self.set), words(&now.set)));
         }
         let other = now.files.iter().filter(|file| !self.files.contains(file));

@@ -8,6 +8,7 @@ use crate::app::commands::run::choice::ModelChoice;
 use crate::app::error::ComputeError;
 use crate::files::FileDigest;
 use crate::formats::{ParquetColumn, ParquetValues};
+use crate::report::significant;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
@@ -73,6 +74,8 @@ pub struct SignalRecord {
 pub(crate) struct ShardRecord {
     /// Its name and the SHA-256 of its bytes; that of the same as Parquet too, if it was asked for.
     pub(crate) files: Vec<FileDigest>,
+    /// SHA-256 of the records below.
+    pub(crate) signals_sha256: String,
     /// The signals that belong to it, those that could not be computed too.
     pub(crate) signals: Vec<SignalRecord>,
 }
@@ -146,6 +149,31 @@ impl SignalRecord {
         self.method = Some(choice.model.method.name().to_owned());
         self.step_s = Some(choice.model.step);
         self.estimated_error = choice.estimated_error;
+    }
+}
+
+impl DatasetPlan {
+    /// What a signal's model was to reach (`accuracy.target`).
+    fn target_of(&self, signal: &SignalRecord) -> f64 {
+        let drawn = signal.drawn.get("accuracy.target").and_then(Value::as_f64);
+        drawn.unwrap_or_else(|| self.cases[self.hierarchy.machines[signal.machine].entry].target())
+    }
+
+    /// Why signals that are there are not as accurate as they were to be, if some are not.
+    pub(crate) fn inaccurate(&self, manifest: &Manifest<'_>) -> Option<String> {
+        /// Times the target that is told.
+        const TOLD: f64 = 2.0;
+        let there: Vec<&SignalRecord> = manifest.signals.iter().filter(|signal| signal.file.is_some()).collect();
+        let errors = there.iter().filter_map(|signal| Some((signal.estimated_error?, self.target_of(signal))));
+        let missed: Vec<f64> =
+            errors.filter(|(error, target)| *error > TOLD * target).map(|(error, _)| error).collect();
+        let worst = missed.iter().copied().reduce(f64::max)?;
+        Some(format!(
+            "{} of {} signals miss accuracy.target by more than twice (estimated errors up to {}): see manifest.csv",
+            missed.len(),
+            there.len(),
+            significant(worst, 2)
+        ))
     }
 }
 

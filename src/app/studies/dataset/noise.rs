@@ -3,6 +3,7 @@
 use super::drawn::{Loudness, Noise, Pitch};
 use crate::app::error::ComputeError;
 use crate::numerics::series::root_mean_square;
+use crate::report::significant;
 use realfft::RealFftPlanner;
 use std::f64::consts::{SQRT_2, TAU};
 
@@ -23,6 +24,19 @@ impl Loudness {
             Self::Below(db) => of_signal * 10.0_f64.powf(-db / 20.0),
             Self::Itself(rms) => rms,
         }
+    }
+}
+
+impl Noise {
+    /// Why samples cannot hold a tone of the shaft, if it is as fast as half of their rate (Hz) at the shaft's highest speed (Hz).
+    pub(super) fn folded(&self, fastest_hz: f64, half_hz: f64) -> Option<String> {
+        self.tones.iter().find_map(|tone| match tone.pitch {
+            Pitch::Shaft(order) if order * fastest_hz >= half_hz => Some(format!(
+                "a tone of order {order} is at {} Hz, expected below half of recorder.rate_hz ({half_hz} Hz)",
+                significant(order * fastest_hz, 6)
+            )),
+            _ => None,
+        })
     }
 }
 

@@ -3,6 +3,7 @@
 use super::drawn::Signal;
 use super::hierarchy::{Hierarchy, Specimen};
 use super::identity::{DatasetIdentity, identity};
+use super::reading::MOST_SIGNALS;
 use super::spec::{DatasetSpec, Split};
 use crate::app::case::{Case, CaseError, Purpose, Source};
 use crate::app::error::ComputeError;
@@ -39,6 +40,10 @@ impl DatasetPlan {
             let what = format!("{}: found no number of signals", path.display());
             ComputeError::input(what, "give count in the specification, or --count N")
         })?;
+        if count > MOST_SIGNALS {
+            let what = format!("found --count {count}, expected at most {MOST_SIGNALS}");
+            return Err(ComputeError::input(what, "make several data sets, each with a seed of its own"));
+        }
         let cases = spec.cases(&source)?;
         // a file that cannot be read as a record is wrong input
         let background = spec.background(&source)?;
@@ -67,9 +72,10 @@ impl DatasetPlan {
         first..(first + self.per_shard).min(self.count)
     }
 
-    /// Recorded samples of the background; `None` without one.
-    pub(super) fn background(&self) -> Option<&[f64]> {
-        self.background.as_deref()
+    /// Recorded samples of the background for a part of the split; `None` without one.
+    pub(super) fn background_of(&self, part: usize) -> Option<&[f64]> {
+        let record = self.background.as_deref()?;
+        record.get(self.spec.split.stretch(part, record.len()))
     }
 
     /// The case of a signal, with the sensor that is recorded alone.

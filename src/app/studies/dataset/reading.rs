@@ -2,11 +2,12 @@
 
 use super::distribution::Amount;
 use super::level::plain_key;
-use super::spec::{DatasetSpec, Keys, SplitBy};
+use super::spec::{DatasetSpec, Keys, Split, SplitBy};
 use crate::app::case::{Case, CaseError, Document, Rule, Source};
 use crate::app::error::ComputeError;
 use crate::files;
 use crate::formats::{SignalRequest, read_signals};
+use crate::report::significant;
 use std::collections::BTreeMap;
 use std::path::Path;
 
@@ -21,8 +22,9 @@ const SET_HERE: [(&str, &str); 7] = [
     ("accuracy", "set single keys of it"),
 ];
 
-/// Most signals of one data set.
-const MOST_SIGNALS: usize = 100_000_000;
+/// Most signals of one data set, and most machines.
+pub(super) const MOST_SIGNALS: usize = 10_000_000;
+const MOST_MACHINES: usize = 1_000_000;
 /// Relative difference of two rates that are the same.
 const SAME_RATE: f64 = 1e-6;
 
@@ -66,7 +68,7 @@ impl DatasetSpec {
             _ => Ok(()),
         };
         if self.count.is_some_and(|count| count == 0 || count > MOST_SIGNALS) {
-            return refuse("count", Rule::found(self.count.unwrap_or(0), "a number from 1 to 100000000"));
+            return refuse("count", Rule::found(self.count.unwrap_or(0), "a number from 1 to 10000000"));
         }
         if self.signals_per_specimen == 0 {
             return refuse("signals_per_specimen", Rule::found(0, "1 or more"));
@@ -85,7 +87,11 @@ impl DatasetSpec {
         shares("split", &self.split.shares())?;
         let weights: Vec<f64> = self.machines.iter().map(|machine| machine.weight).collect();
         shares("machines", &weights)?;
-        let instances: usize = self.machines.iter().map(|machine| machine.count).sum();
+        let instances = self.machines.iter().fold(0_usize, |sum, machine| sum.saturating_add(machine.count));
+        if instances > MOST_MACHINES {
+            let rule = Rule::found(format!("{instances} machines by count"), "at most 1000000 in all");
+            return refuse("machines", rule.with_help("lower count of [[machines]]"));
+        }
         let parts = self.split.shares().iter().filter(|share| **share > 0.0).count();
         if self.split.by == SplitBy::Machine && instances < parts {
             let rule = Rule::found(format!("\"machine\" with {instances} machines"), "one for each part at least");
@@ -124,10 +130,16 @@ impl DatasetSpec {
             (1.0..=1e7).contains(&recorder.rate_hz),
         )?;
         let long = recorder.duration_s * recorder.rate_hz;
-        let expected = "a time of at least two samples and at most 1e9";
-        within("recorder.duration_s", recorder.duration_s, expected, (2.0..=MOST_SAMPLES).contains(&long))?;
         let before = recorder.settle_s * recorder.rate_hz;
-        within("recorder.settle_s", recorder.settle_s, "a time not below 0", (0.0..=MOST_SAMPLES).contains(&before))?;
+        for (key, time_s, samples, least, expected) in [
+            ("duration_s", recorder.duration_s, long, 2.0, "a time of 2 to 1e9 samples"),
+            ("settle_s", recorder.settle_s, before, 0.0, "a time of 0 to 1e9 samples"),
+        ] {
+            if !(least..=MOST_SAMPLES).contains(&samples) {
+                let rule = Rule::found(format!("{time_s} s, which is {samples} samples at rate_hz"), expected);
+                return refuse(&format!("recorder.{key}"), rule);
+            }
+        }
         let (above_zero, below_half) = ("a number above 0", "above 0 and at most half of rate_hz");
         let half = 0.5 * recorder.rate_hz;
         amount("recorder.anti_alias_hz", &recorder.anti_alias_hz, above_zero, |x| x > 0.0 && x.is_finite())?;
@@ -173,7 +185,7 @@ impl DatasetSpec {
             }
         }
         if let Some(noise) = &self.noise {
-            let finite = "finite numbers";
+            let decibels = "-200 to 200 dB";
             if noise.snr_db.is_some() && noise.rms.is_some() {
                 return refuse("noise", Rule::found("snr_db and rms", "one of the two"));
             }
@@ -184,7 +196,7 @@ impl DatasetSpec {
             amount("noise.modulation", &noise.modulation, "a share from 0 to 1", |x| (0.0..=1.0).contains(&x))?;
             amount("noise.colour", &noise.colour, "an exponent from -4 to 4", |x| (-4.0..=4.0).contains(&x))?;
             let db = |x: f64| (-200.0..=200.0).contains(&x) || x.is_infinite();
-            amount("noise.snr_db", &noise.snr_db, finite, db)?;
+            amount("noise.snr_db", &noise.snr_db, decibels, db)?;
             for (index, tone) in noise.tones.iter().enumerate() {
                 let key = format!("noise.tones[{index}]");
                 if tone.hz.is_some() == tone.order.is_some() {
@@ -194,8 +206,13 @@ impl DatasetSpec {
                     return refuse(&key, Rule::found("both or neither of ratio_db and rms", "one of the two"));
                 }
                 amount(&format!("{key}.hz"), &tone.hz, above_zero, |x| x > 0.0 && x.is_finite())?;
+                if let Some([_, high]) = tone.hz.as_ref().map(Amount::range).filter(|[_, high]| *high >= half) {
+                    let rule = Rule::beyond(high, "a frequency below half of recorder.rate_hz", half);
+                    let help = "it would appear at another frequency: lower it, or raise recorder.rate_hz";
+                    return refuse(&format!("{key}.hz"), rule.with_help(help));
+                }
                 amount(&format!("{key}.order"), &tone.order, above_zero, |x| x > 0.0 && x.is_finite())?;
-                amount(&format!("{key}.ratio_db"), &tone.ratio_db, finite, db)?;
+                amount(&format!("{key}.ratio_db"), &tone.ratio_db, decibels, db)?;
                 amount(&format!("{key}.rms"), &tone.rms, "a number not below 0", |x| x >= 0.0 && x.is_finite())?;
             }
             if let Some(background) = &noise.background {
@@ -203,7 +220,7 @@ impl DatasetSpec {
                     let rule = Rule::found("both or neither of ratio_db and gain", "one of the two");
                     return refuse("noise.background", rule);
                 }
-                amount("noise.background.ratio_db", &background.ratio_db, finite, db)?;
+                amount("noise.background.ratio_db", &background.ratio_db, decibels, db)?;
                 amount("noise.background.gain", &background.gain, "a number not below 0", |x| x >= 0.0)?;
             }
         }
@@ -272,7 +289,7 @@ impl DatasetSpec {
     /// The samples of the background; `None` without one.
     ///
     /// # Errors
-    /// [`ComputeError`] for a file that cannot be read, another rate, and a record that is shorter than a signal or silent.
+    /// [`ComputeError`] for a file that cannot be read, another rate, and a record that is silent or too short for a part of the split.
     pub(super) fn background(&self, source: &Source) -> Result<Option<Vec<f64>>, ComputeError> {
         let Some(asked) = self.noise.as_ref().and_then(|noise| noise.background.as_ref()) else { return Ok(None) };
         let path = Self::folder(source).join(&asked.file);
@@ -289,12 +306,17 @@ impl DatasetSpec {
             return Err(refuse("file", format!("{rate_hz} Hz"), format!("the recorder's {wanted_hz} Hz"), help)?.into());
         }
         let [samples, _] = self.recorder.samples();
-        if series.values().len() < samples {
-            let found = format!("{} samples", series.values().len());
-            let expected = format!("at least the {samples} of a signal");
-            return Err(
-                refuse("file", found, expected, "take a longer record, or a shorter recorder.duration_s")?.into()
-            );
+        let (there, shares) = (series.values().len(), self.split.shares());
+        let of_part = (0..shares.len()).map(|part| (part, self.split.stretch(part, there).len()));
+        let least = of_part.filter(|(part, _)| shares[*part] > 0.0).min_by_key(|(_, length)| *length);
+        if let Some((part, length)) = least.filter(|(_, length)| *length < samples) {
+            let seconds = |samples: f64| format!("{} s", significant(samples / rate_hz, 4));
+            let name = Split::PARTS[part];
+            let found = format!("{}, of which {name} has {}", seconds(there as f64), seconds(length as f64));
+            let needed = samples as f64 * shares.iter().sum::<f64>() / shares[part];
+            let expected = format!("at least {}: {} for {name}", seconds(needed), seconds(samples as f64));
+            let help = "take a longer record, a shorter recorder.duration_s, or a larger share of split";
+            return Err(refuse("file", found, expected, help)?.into());
         }
         let mean = series.mean();
         let values: Vec<f64> = series.values().iter().map(|value| value - mean).collect();

@@ -120,7 +120,7 @@ impl Recorded {
     /// With noise and background, in the converter's steps.
     ///
     /// # Errors
-    /// [`ComputeError::Failed`] for noise that cannot be coloured.
+    /// [`ComputeError::Failed`] for noise that cannot be coloured, and samples that 32 bits do not hold.
     pub(super) fn new(
         mut samples: Vec<f64>,
         recorder: &Recorder,
@@ -139,6 +139,13 @@ impl Recorded {
             }
         }
         let clipped = clipped as f64 / samples.len().max(1) as f64;
+        let held =
+            |sample: f64| sample == 0.0 || (f64::from(f32::MIN_POSITIVE)..=f64::from(f32::MAX)).contains(&sample);
+        let largest = samples.iter().fold(clean_rms, |largest, sample| largest.max(sample.abs()));
+        if !held(largest) || samples.iter().any(|sample| !sample.is_finite()) {
+            let what = format!("samples of up to {largest:e} m/s^2: 32 bits hold 1.2e-38 to 3.4e38");
+            return Err(ComputeError::Failed { what, help: None });
+        }
         Ok(Self { samples: samples.into_iter().map(|sample| sample as f32).collect(), clean_rms, clipped })
     }
 }

@@ -1,6 +1,6 @@
 //! The files of a data set: shards of signals, each with a record of what is in it, and the manifest of all.
 //!
-//! A shard is there when its record is, written last, and its file has the digest of the record. So a data set goes on after its process
+//! A shard is there when its record is, written last, and it and its file have the digests that it names. So a data set goes on after its process
 //! was killed at any time, and ends with the same bytes.
 
 use super::compute::{Computed, Structures, Work};
@@ -47,7 +47,9 @@ impl DatasetPlan {
         let record = files::read(&Self::record_path(folder, shard)).ok()?;
         let record: ShardRecord = serde_json::from_slice(&record).ok()?;
         let numbers = record.signals.iter().map(|signal| signal.signal);
-        let is_whole = numbers.eq(self.of_shard(shard)) && self.digests(folder, shard).ok()? == record.files;
+        let is_whole = numbers.eq(self.of_shard(shard))
+            && digest_of(&record.signals).ok()? == record.signals_sha256
+            && self.digests(folder, shard).ok()? == record.files;
         is_whole.then_some(record)
     }
 
@@ -74,11 +76,15 @@ impl DatasetPlan {
             write_parquet(&folder.join(parquet), &columns(&mut computed))?;
         }
         let files = self.digests(folder, shard).map_err(FileError::read(&path))?;
-        let signals = computed.into_iter().map(|signal| signal.record).collect();
-        let record = ShardRecord { files, signals };
+        let signals: Vec<SignalRecord> = computed.into_iter().map(|signal| signal.record).collect();
         let path = Self::record_path(folder, shard);
-        let text = serde_json::to_string_pretty(&record)
-            .map_err(|error| ComputeError::wrong(format!("{}: {error}", path.display())))?;
+        let failed = |error| ComputeError::wrong(format!("{}: {error}", path.display()));
+        // numbers as they are read again
+        let again: Result<Vec<SignalRecord>, _> =
+            serde_json::to_vec(&signals).and_then(|text| serde_json::from_slice(&text));
+        let signals_sha256 = again.and_then(|signals| digest_of(&signals)).map_err(failed)?;
+        let record = ShardRecord { files, signals_sha256, signals };
+        let text = serde_json::to_string_pretty(&record).map_err(failed)?;
         Ok(write_atomic(&path, |file| writeln!(file, "{text}"))?)
     }
 
@@ -121,6 +127,11 @@ impl DatasetPlan {
         let missing: Vec<usize> = missing.into_iter().filter_map(Result::err).collect();
         if missing.is_empty() { Ok(Manifest::of(self, there.into_iter().flatten().collect())) } else { Err(missing) }
     }
+}
+
+/// SHA-256 of signals' records as they were read.
+fn digest_of(signals: &[SignalRecord]) -> Result<String, serde_json::Error> {
+    Ok(FileDigest::of_bytes(Path::new(""), &serde_json::to_vec(signals)?).sha256)
 }
 
 /// The signals that are there by columns, the samples last and taken out.

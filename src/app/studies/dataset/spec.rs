@@ -10,12 +10,13 @@ use schemars::JsonSchema;
 use serde::Deserialize;
 use serde_json::Value;
 use std::collections::BTreeMap;
+use std::ops::Range;
 use std::path::{Path, PathBuf};
 
 /// Values of the case's keys; a key with dots is written in quotes.
 pub(crate) type Keys = BTreeMap<String, Distribution>;
 
-/// A data set's specification.
+/// A data set's specification. What is drawn for one key has at most 100000 values.
 #[derive(Debug, Clone, PartialEq, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct DatasetSpec {
@@ -24,7 +25,7 @@ pub(crate) struct DatasetSpec {
     pub title: String,
     /// Every seed makes another data set.
     pub seed: u64,
-    /// Number of signals, unless `--count` says another; a larger one begins with the same signals.
+    /// Number of signals, unless `--count` says another; a larger one begins with the same signals; at most 1e7.
     #[serde(default)]
     pub count: Option<usize>,
     /// Signals of one bearing with one fault.
@@ -95,6 +96,14 @@ impl Split {
     pub(super) fn shares(&self) -> [f64; 3] {
         [self.train, self.validation, self.test]
     }
+
+    /// The stretch of so many background samples that a part has alone, by its share.
+    pub(super) fn stretch(&self, part: usize, samples: usize) -> Range<usize> {
+        let shares = self.shares();
+        let total: f64 = shares.iter().sum();
+        let until = |part: usize| (shares[..part].iter().sum::<f64>() / total * samples as f64).round() as usize;
+        until(part)..until(part + 1)
+    }
 }
 
 /// What becomes of signals that cannot be trusted; the manifest has the reason either way.
@@ -125,7 +134,7 @@ pub(crate) enum SplitBy {
 pub(crate) struct MachineSpec {
     /// Case file, relative to the specification.
     pub case: PathBuf,
-    /// How many machines of this kind there are.
+    /// How many machines of this kind there are; at most 1e6 of all kinds.
     #[serde(default = "one")]
     pub count: usize,
     /// Share of the specimens beside the other kinds.
@@ -310,10 +319,10 @@ pub(crate) struct NoiseSpec {
 #[derive(Debug, Clone, PartialEq, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct ToneSpec {
-    /// Frequency, Hz.
+    /// Frequency, below half of the recorder's rate, Hz.
     #[serde(default)]
     pub hz: Option<Amount>,
-    /// In the place of `hz`: periods a turn of the shaft.
+    /// In the place of `hz`: periods a turn of the shaft; a signal in which it comes to half of the rate is left out.
     #[serde(default)]
     pub order: Option<Amount>,
     /// RMS of the signal over that of the tone, dB.
@@ -324,11 +333,11 @@ pub(crate) struct ToneSpec {
     pub rms: Option<Amount>,
 }
 
-/// A recorded background, of which a stretch is drawn for each signal.
+/// A recorded background, of which a stretch is drawn for each signal. Each part of the split has a piece of the record alone, by its share.
 #[derive(Debug, Clone, PartialEq, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct BackgroundSpec {
-    /// The record (.npz, .mat, .csv, .wav, .uff), relative to the specification; at the recorder's rate and longer than a signal.
+    /// The record (.npz, .mat, .csv, .wav, .uff), relative to the specification; at the recorder's rate. The piece of each part holds a signal at least.
     pub file: PathBuf,
     /// Its channel; absent: the only one.
     #[serde(default)]
