@@ -11,5 +11,4 @@ run = case.run(progress=True)
 signal = run["P1"]
 print(f"{signal.name}: {np.sqrt(np.mean(signal.values**2)):.1f} {signal.unit} rms; {run.verdicts[0].indicated}")
 
-speed = list(zip(run.time_s[::1000], run.shaft_speed_hz[::1000]))
-print(plummer.analyze(signal, orders=run.summary["defect_orders"], speed_hz=speed, windows_s=[(1.0, 1.8)]))
+print(plummer.analyze(signal, bearing=case, windows_s=[(1.0, 1.8)]))

@@ -44,6 +44,16 @@ from ._modes import Modes
 from ._result import Result
 from ._run import Run, Signal, Signals
 
+
+
+def __getattr__(name: str) -> str:
+    if name == "__version__":
+        from importlib.metadata import version
+
+        return version(__name__)
+    raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+
+
 __all__ = [
     "Analysis",
     "BlewUp",

@@ -51,21 +51,35 @@ class WindowVerdict(NamedTuple):
     from_s: float
     #: end, s
     to_s: float
-    #: mean speed of the shaft, Hz
+    #: speed of the shaft that orders are of, Hz: the given one, sharpened by the signal's lines
     speed_hz: float
+    #: mean speed of the shaft as it was given, Hz
+    given_speed_hz: float
+    #: whose word ``speed_hz`` is: "given", "sharpened", ...; ``None`` without a verdict
+    speed_source: str | None
     #: root mean square, in the signal's unit
     rms: float
     #: each part
     faults: list[FaultVerdict]
     #: why nothing was judged; ``None``: it was
     not_judged: str | None
-    #: parts whose lines grew since the baseline, by how much, dB
-    grew: dict[str, float | None]
+    #: parts whose lines grew since the baseline; ``Analysis.windows`` has by how much
+    grown: list[str]
 
     @property
     def indicated(self) -> list[str]:
         """The parts that are indicated."""
         return [fault.part for fault in self.faults if fault.conclusion == "named"]
+
+
+def _not_judged(verdict: dict[str, Any]) -> str | None:
+    """Why no part was judged; ``None``: one was."""
+    faults = verdict.get("faults")
+    if not faults:
+        reason: str = verdict["reason"]
+        return reason
+    why: str = faults[0]["why"]
+    return why if all(fault["false_alarm"] is None for fault in faults) else None
 
 
 def verdicts(windows: list[dict[str, Any]]) -> list[WindowVerdict]:
@@ -90,11 +104,13 @@ def verdicts(windows: list[dict[str, Any]]) -> list[WindowVerdict]:
                 window.get("bearing") or "",
                 window["from"],
                 window["to"],
+                verdict.get("speed_hz", window["speed_hz"]),
                 window["speed_hz"],
+                verdict.get("speed_source"),
                 window["rms"],
                 faults,
-                None if "faults" in verdict else verdict["reason"],
-                {line["name"]: line["change_db"] for line in window.get("changes", {}).get("lines", []) if line["conclusion"] == "grew"},
+                _not_judged(verdict),
+                [line["name"] for line in window.get("changes", {}).get("lines", []) if line["conclusion"] == "grew"],
             )
         )
     return found
@@ -103,7 +119,7 @@ def verdicts(windows: list[dict[str, Any]]) -> list[WindowVerdict]:
 def rows(verdicts: list[WindowVerdict]) -> list[dict[str, Any]]:
     """A row for each part in each window."""
     return [
-        {**{key: value for key, value in window._asdict().items() if key not in ("faults", "not_judged", "grew")}, **fault._asdict()}
+        {**{key: value for key, value in window._asdict().items() if key not in ("faults", "not_judged", "grown")}, **fault._asdict()}
         for window in verdicts
         for fault in window.faults
     ]
@@ -267,7 +283,7 @@ def analyze(
     pitch_diameter: float | None = None,
     orders: Mapping[str, float] | None = None,
     contact_angle_deg: float = 0.0,
-    geometry_error: float = 0.01,
+    geometry_error: float | None = None,
     windows_s: Sequence[tuple[float, float]] = (),
     high_pass_hz: float | None = None,
     band_hz: tuple[float, float] | str | None = None,
@@ -291,7 +307,7 @@ def analyze(
         balls: number of balls, with ``ball_diameter`` and ``pitch_diameter`` in one unit, in the place of ``bearing``.
         orders: events per turn, some of ``outer``, ``inner``, ``ball`` and ``cage``, in the place of ``bearing``.
         contact_angle_deg: contact angle, degrees, of a bearing by its name or its balls.
-        geometry_error: how far orders may be off, relative, 0 to 0.1.
+        geometry_error: how far orders may be off, relative, 0 to 0.1; ``None``: 0.01, or 0 of a run's signal with its case.
         windows_s: windows from, to (s); none: all of the signal.
         high_pass_hz: corner of the high-pass before the envelope, Hz.
         band_hz: band before the envelope, Hz, or ``"kurtogram"``, in the place of ``high_pass_hz``.
@@ -299,7 +315,7 @@ def analyze(
         start_s: time of the first sample, s; ``None``: 0, or that of a run's signal.
         unit: unit of the samples.
         channel: name of the signal.
-        baseline: earlier signal of the same machine, sensor and gain: :attr:`WindowVerdict.grew` says what grew since.
+        baseline: earlier signal of the same machine, sensor and gain: ``grown`` of its windows says what grew since.
         baseline_speed_hz: speed of the shaft then, as ``speed_hz``; ``None``: the same.
         baseline_rate_hz: its sampling rate, Hz; ``None``: the same.
         baseline_window_s: window of it that counts, s; ``None``: the window of the signal if it holds that, else all of it.
@@ -317,7 +333,7 @@ def analyze(
     >>> strikes = np.exp(-800 * (time % (1 / 107.36))) * np.sin(2 * np.pi * 3000 * (time % (1 / 107.36)))
     >>> noise = 0.05 * np.random.default_rng(1).standard_normal((2, time.size))
     >>> found = plummer.analyze(strikes + noise[0], rate_hz=12000, bearing="6205", speed_hz=29.95, baseline=noise[1])
-    >>> found.indicated, list(found[0].grew)
+    >>> found.indicated, found[0].grown
     (['outer race'], ['outer race'])
     """
     from ._case import Case
@@ -345,6 +361,8 @@ def analyze(
         raise InputError("speed_hz: found nothing, expected the speed of the shaft, Hz")
     if band_hz is not None and high_pass_hz is not None:
         raise InputError("band_hz: found a band beside high_pass_hz, expected one of both")
+    if geometry_error is None:
+        geometry_error = 0.0 if case is not None and isinstance(x, Signal) else 0.01
     kurtogram = isinstance(band_hz, str) and band_hz == "kurtogram"
     expected = 'from below to, Hz, or "kurtogram"'
     bands = [] if band_hz is None or kurtogram else _pairs("band_hz", band_hz, expected)

@@ -98,7 +98,7 @@ class Case:
         try:
             return self._case.value(key)
         except CaseError as error:
-            raise KeyError(str(error)) from None
+            raise KeyError(error.what) from None
 
     def __contains__(self, key: object) -> bool:
         try:

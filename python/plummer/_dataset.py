@@ -12,7 +12,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from . import _plummer
-from ._errors import ComputationError, FileError, InputError
+from ._errors import ComputationError, FileError, InputError, Interrupted
 
 if TYPE_CHECKING:
     import numpy as np
@@ -126,6 +126,7 @@ def dataset(
 
     Raises:
         InputError: a specification that is not valid, or a folder that is taken.
+        Interrupted: by Ctrl-C.
         ComputationError: no manifest could be written. Signals that cannot be computed are in :attr:`Dataset.failed`.
 
     >>> import tempfile
@@ -146,7 +147,10 @@ def dataset(
     words += ["--", os.fspath(spec)]
     manifest = Path(out) / "manifest.json"
     before = manifest.stat().st_mtime_ns if manifest.exists() else None
-    done = subprocess.run(words, stdout=subprocess.DEVNULL, stderr=None if progress else subprocess.PIPE, text=True)
+    try:
+        done = subprocess.run(words, stdout=subprocess.DEVNULL, stderr=None if progress else subprocess.PIPE, text=True)
+    except KeyboardInterrupt as error:
+        raise Interrupted(f"interrupted; {os.fspath(out)} has the files that were whole, and resume=True goes on") from error
     if done.returncode == 0:
         return Dataset(out)
     said = [line for line in (done.stderr or "the command failed: see its words").splitlines() if line]

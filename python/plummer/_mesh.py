@@ -118,17 +118,22 @@ class Mesh:
     def from_meshio(cls, mesh: Any) -> Mesh:
         """A mesh of meshio, with its cell sets, and with the physical groups of a file of gmsh.
 
-        Elements of kinds that no model has are left out.
+        Physical groups without a name have that of dimension and number,
+        ``"physical volume 1"``.
+
+        Raises:
+            MeshError: kinds of elements that no model has.
         """
         import numpy as np
 
+        dimensions = ("point", "curve", "surface", "volume")
         names = {(int(tag), int(dimension)): name for name, (tag, dimension) in mesh.field_data.items()}
         of_block = mesh.cell_data.get("gmsh:physical")
         cells: dict[str, list[Any]] = {}
         groups: dict[str, dict[str, list[int]]] = {}
         for block, found in enumerate(mesh.cells):
             if found.type not in KINDS:
-                continue
+                raise MeshError(f"cells: found {found.type}, of which no model is, expected some of {', '.join(KINDS)}")
             before = sum(len(part) for part in cells.setdefault(found.type, []))
             cells[found.type].append(found.data)
             for name, sets in mesh.cell_sets.items():
@@ -136,8 +141,8 @@ class Mesh:
                 if members is not None and len(members) and not name.startswith("gmsh:"):
                     groups.setdefault(name, {}).setdefault(found.type, []).extend(before + int(member) for member in members)
             for place, tag in enumerate([] if of_block is None else of_block[block]):
-                own = names.get((int(tag), found.dim)) if tag else None
-                if own is not None and own not in mesh.cell_sets:
+                own = names.get((int(tag), found.dim), f"physical {dimensions[found.dim]} {int(tag)}")
+                if tag and own not in mesh.cell_sets:
                     groups.setdefault(own, {}).setdefault(found.type, []).append(before + place)
         joined = {kind: np.concatenate(parts) for kind, parts in cells.items()}
         return cls.from_arrays(mesh.points, joined, groups, order="vtk")

@@ -88,6 +88,20 @@ def test_a_specification_that_is_wrong_is_wrong_input(tmp_path: Path) -> None:
         plummer.dataset("examples/datasets/two_machines.toml", tmp_path, set="seed=2")  # type: ignore[arg-type]
 
 
+def test_a_window_of_few_revolutions_is_no_sound_bearing() -> None:
+    noise = np.random.default_rng(1).standard_normal(1000)
+    with pytest.raises(plummer.ComputationError, match="no part could be judged in any window: The window has 2.5 revolutions"):
+        plummer.analyze(noise, rate_hz=12000, bearing="6205", speed_hz=29.95)
+
+
+def test_the_speed_of_a_verdict_is_that_of_its_orders() -> None:
+    asked: dict[str, Any] = {"orders": {"outer": 2.58, "inner": 4.42}, "windows_s": (1, 9)}
+    with np.load("examples/measured/nmb_1560kk.npz") as file:
+        found = plummer.analyze(file["signal"], rate_hz=file["rate_hz"][0], speed_hz=5.1, **asked)
+    assert found[0].given_speed_hz == pytest.approx(5.1) and found[0].speed_source == "lines of both races"
+    assert found[0].speed_hz == found.windows[0]["verdict"]["speed_hz"] < 5.08
+
+
 def test_a_signal_or_a_speed_of_another_kind_is_refused() -> None:
     signal = np.random.default_rng(1).standard_normal(24000)
     asked: dict[str, Any] = {"rate_hz": 12000, "bearing": 6205, "speed_hz": np.float32(29.95)}

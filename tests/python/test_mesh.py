@@ -49,6 +49,11 @@ def test_physical_groups_of_meshio_in_several_blocks() -> None:
     parts = [{"group": name, "material": name} for name in materials]
     case = plummer.Case({"materials": materials, "housing": {"mesh": mesh, "length_unit": "m", "parts": parts}, "modes": {"count": 7}})
     assert case.modes().mass_kg == pytest.approx(21.0)
+    unnamed = plummer.Mesh.from_meshio(meshio.Mesh(points, bricks, cell_data=of_gmsh))
+    assert unnamed.groups == ["physical volume 1", "physical volume 2"]
+    cubic = [*bricks, ("hexahedron64", np.arange(64)[None])]
+    with pytest.raises(plummer.MeshError, match="cells: found hexahedron64, of which no model is"):
+        plummer.Mesh.from_meshio(meshio.Mesh(np.zeros((64, 3)), cubic))
 
 
 def test_the_open_model_of_gmsh_is_a_mesh_without_a_file() -> None:
