@@ -4,6 +4,7 @@
 # A pillow block is drawn in gmsh's Python interface, meshed, and handed over without a file. Needs gmsh, meshio, pandas.
 
 # %%
+import os
 from pathlib import Path
 
 import gmsh
@@ -12,6 +13,8 @@ import numpy as np
 
 import plummer
 
+# the folder of the repository, from whichever folder of it the cells run
+os.chdir(next(folder for folder in (Path.cwd(), *Path.cwd().parents) if (folder / "examples").is_dir()))
 OUT = Path("out/notebooks")
 OUT.mkdir(parents=True, exist_ok=True)
 

@@ -5,6 +5,7 @@
 # errors on bearings that it never saw say how many are enough. Needs SciPy, scikit-learn, matplotlib.
 
 # %%
+import os
 from pathlib import Path
 
 import matplotlib.pyplot as plt
@@ -17,6 +18,8 @@ from sklearn.preprocessing import StandardScaler
 
 import plummer
 
+# the folder of the repository, from whichever folder of it the cells run
+os.chdir(next(folder for folder in (Path.cwd(), *Path.cwd().parents) if (folder / "examples").is_dir()))
 OUT = Path("out/notebooks")
 
 # %% [markdown]

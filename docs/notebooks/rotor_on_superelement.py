@@ -5,11 +5,17 @@
 # Needs ross-rotordynamics 2.3.0, "plotly<6", SciPy, pandas.
 
 # %%
+import os
+from pathlib import Path
+
 import numpy as np
 import ross
 import scipy.linalg
 
 import plummer
+
+# the folder of the repository, from whichever folder of it the cells run
+os.chdir(next(folder for folder in (Path.cwd(), *Path.cwd().parents) if (folder / "examples").is_dir()))
 
 # %% [markdown]
 # ## The superelement

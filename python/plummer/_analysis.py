@@ -113,22 +113,16 @@ class Analysis(Sequence[WindowVerdict]):
     """An analysed signal: the verdicts of its windows."""
 
     def __init__(self, computed: _plummer.Analysis) -> None:
-        self._computed = computed
-
-    @cached_property
-    def windows(self) -> list[dict[str, Any]]:
-        """What analysis.json says of each window."""
-        return self._computed.windows()
+        #: what analysis.json says of each window
+        self.windows: list[dict[str, Any]] = computed.windows()
+        #: what is wrong with the signal, its speed and its baseline, a sentence each
+        self.warnings: list[str] = computed.warnings
+        self._spectra = computed.spectra()
 
     @cached_property
     def verdicts(self) -> list[WindowVerdict]:
         """What each window says of each part."""
         return verdicts(self.windows)
-
-    @property
-    def warnings(self) -> list[str]:
-        """What is wrong with the signal and its baseline: clipping, stretches that stand still, other units or speeds."""
-        return self._computed.warnings
 
     def __getitem__(self, window: Any) -> Any:
         return self.verdicts[window]
@@ -152,7 +146,7 @@ class Analysis(Sequence[WindowVerdict]):
         import matplotlib.pyplot as plt
 
         ax = ax or plt.figure().add_subplot()
-        frequency_hz, amplitude = self._computed.spectra()[window]
+        frequency_hz, amplitude = self._spectra[window]
         found = self.windows[window]
         lines = [(line["fault"], line["expected_order"] * found["speed_hz"]) for line in found["fault_lines"]]
         top = 1.2 * max([hz for _, hz in lines], default=float(frequency_hz[-1]))
@@ -177,30 +171,89 @@ class Analysis(Sequence[WindowVerdict]):
         return f"<plummer.Analysis: {len(self)} windows, indicated: {', '.join(self.indicated) or 'nothing'}>"
 
 
-def _speed(given: Any) -> list[tuple[float, float]]:
+def _number(what: str, given: Any) -> float:
+    """A number, not its text."""
+    if not isinstance(given, (bool, str, bytes)):
+        try:
+            return float(given)
+        except (TypeError, ValueError):
+            pass
+    raise InputError(f"{what}: found {given!r}, expected a number")
+
+
+def _pairs(what: str, given: Any, of: str) -> list[tuple[float, float]]:
+    """Pairs of numbers; one pair alone counts as such."""
+    import numpy as np
+
+    try:
+        array = np.asarray([] if given is None else given, dtype=float)
+    except (TypeError, ValueError):
+        array = np.empty(1)
+    if array.shape == (2,):
+        array = array[None]
+    if isinstance(given, (str, bytes)) or not (array.size == 0 or (array.ndim == 2 and array.shape[1] == 2)):
+        raise InputError(f"{what}: found {given!r}, expected {of}")
+    return [(float(first), float(second)) for first, second in array.reshape(-1, 2)]
+
+
+def _speed(what: str, given: Any) -> list[tuple[float, float]]:
     """Times (s) with the speed then (Hz)."""
     import numpy as np
 
-    wrong = f"speed_hz: found {given!r}, expected a number, Hz, or pairs of time (s) and speed (Hz)"
-    try:
-        array = np.asarray(given, dtype=float)
-    except (TypeError, ValueError):
-        raise InputError(wrong) from None
-    if isinstance(given, (str, bytes)) or not (array.ndim == 0 or (array.ndim == 2 and array.shape[1] == 2)):
-        raise InputError(wrong)
-    return [(0.0, float(array))] if array.ndim == 0 else [(float(time), float(speed)) for time, speed in array]
+    if np.ndim(given) == 0 and not isinstance(given, (str, bytes)):
+        return [(0.0, _number(what, given))]
+    of = "a number, Hz, or pairs of time (s) and speed (Hz)"
+    if np.ndim(given) == 1:
+        raise InputError(f"{what}: found {given!r}, expected {of}")
+    return _pairs(what, given, of)
 
 
-def _samples(x: ArrayLike | Signal, what: str) -> NDArray[Any]:
+def _samples(what: str, x: ArrayLike | Signal) -> NDArray[Any]:
     """Values [samples] of a signal, as the extension takes them."""
     import numpy as np
 
+    if np.ma.is_masked(x):
+        raise InputError(f"{what}: found masked samples, expected every sample", "fill them, or cut the signal there")
     given = np.asarray(x)
-    if given.dtype.kind not in "biuf":
+    if given.dtype.kind not in "iuf":
         raise InputError(f"{what}: found values of type {given.dtype}, expected real numbers")
     if given.ndim != 1:
         raise InputError(f"{what}: found an array of shape {given.shape}, expected one of one dimension")
     return np.ascontiguousarray(given, dtype=float)
+
+
+def _bearing(
+    bearing: str | int | Case | None,
+    geometry: tuple[int | None, float | None, float | None],
+    orders: Mapping[str, float] | None,
+) -> Any:
+    """The bearing as the extension takes it; ``None`` for a case."""
+    import operator
+
+    from ._case import Case
+
+    given = [name is not None for name in (bearing, orders)] + [any(value is not None for value in geometry)]
+    if sum(given) != 1 or (given[2] and None in geometry):
+        raise InputError(
+            "bearing: expected one of bearing, orders, or balls with ball_diameter and pitch_diameter",
+            'write bearing="6205", or orders={"outer": 3.58, "inner": 5.42}',
+        )
+    if given[2]:
+        try:
+            balls = operator.index(geometry[0])  # type: ignore[arg-type]
+        except TypeError:
+            raise InputError(f"balls: found {geometry[0]!r}, expected a whole number") from None
+        return balls, _number("ball_diameter", geometry[1]), _number("pitch_diameter", geometry[2])
+    if orders is not None:
+        names = ("outer", "inner", "ball", "cage")
+        if not isinstance(orders, Mapping) or not orders or not set(orders) <= set(names):
+            raise InputError(f"orders: found {orders!r}, expected a dict of some of {', '.join(names)}")
+        return tuple(None if orders.get(name) is None else _number(f"orders: {name}", orders[name]) for name in names)
+    if isinstance(bearing, Case):
+        return None
+    if isinstance(bearing, bool) or not isinstance(bearing, (str, int)):
+        raise InputError(f"bearing: found {bearing!r}, expected a name of the catalogue or a case")
+    return str(bearing)
 
 
 def analyze(
@@ -270,42 +323,40 @@ def analyze(
     from ._case import Case
     from ._run import Signal
 
+    doubts = []
+
     def known(signal: ArrayLike | Signal, rate_hz: float | None, start_s: float | None, speed_hz: Speed | None, name: str) -> dict[str, Any]:
-        own_unit = unit
+        what, own_unit = "" if name == channel else "baseline_", unit
         if isinstance(signal, Signal):
+            if rate_hz is not None and abs(rate_hz / signal.rate_hz - 1) > 0.01:
+                doubts.append(f"{what}rate_hz takes {rate_hz:g} Hz for what the signal says are {signal.rate_hz:g} Hz")
             rate_hz = signal.rate_hz if rate_hz is None else rate_hz
             start_s = float(signal.time_s[0]) if start_s is None else start_s
             own_unit, name = unit or signal.unit, signal.name if name in ("signal", "baseline") else name
         if rate_hz is None:
             raise InputError("rate_hz: found nothing, expected the sampling rate, Hz")
-        speed = None if speed_hz is None else _speed(speed_hz)
-        return {"rate_hz": float(rate_hz), "start_s": float(start_s or 0), "unit": own_unit, "channel": name, "speed_hz": speed}
+        speed = None if speed_hz is None else _speed(f"{what}speed_hz", speed_hz)
+        start_s = 0.0 if start_s is None else _number("start_s", start_s)
+        return {"rate_hz": _number(f"{what}rate_hz", rate_hz), "start_s": start_s, "unit": own_unit, "channel": name, "speed_hz": speed}
 
+    of = _bearing(bearing, (balls, ball_diameter, pitch_diameter), orders)
     case = bearing if isinstance(bearing, Case) else None
-    geometry = (balls, ball_diameter, pitch_diameter)
-    given = [name is not None for name in (bearing, orders)] + [any(value is not None for value in geometry)]
-    if sum(given) != 1 or (given[2] and None in geometry):
-        raise InputError(
-            "bearing: expected one of bearing, orders, or balls with ball_diameter and pitch_diameter",
-            'write bearing="6205", or orders={"outer": 3.58, "inner": 5.42}',
-        )
     if speed_hz is None and case is None:
         raise InputError("speed_hz: found nothing, expected the speed of the shaft, Hz")
-    of: Any = geometry if given[2] else str(bearing)
-    if orders is not None:
-        names = ("outer", "inner", "ball", "cage")
-        unknown = [name for name in orders if name not in names]
-        if unknown:
-            raise InputError(f"orders: found {unknown[0]!r}, expected some of {', '.join(names)}")
-        of = tuple(orders.get(name) for name in names)
-    kurtogram = band_hz == "kurtogram"
+    if band_hz is not None and high_pass_hz is not None:
+        raise InputError("band_hz: found a band beside high_pass_hz, expected one of both")
+    kurtogram = isinstance(band_hz, str) and band_hz == "kurtogram"
+    expected = 'from below to, Hz, or "kurtogram"'
+    bands = [] if band_hz is None or kurtogram else _pairs("band_hz", band_hz, expected)
+    if len(bands) > 1 or any(not 0 < low < high for low, high in bands):
+        raise InputError(f"band_hz: found {band_hz!r}, expected {expected}")
     asked = {
-        "bearing": None if case else of,
-        "contact_angle_deg": contact_angle_deg,
-        "geometry_error": geometry_error,
-        "windows_s": list(windows_s),
-        "high_pass_hz": high_pass_hz,
-        "band_hz": None if kurtogram else band_hz,
+        "bearing": of,
+        "contact_angle_deg": _number("contact_angle_deg", contact_angle_deg),
+        "geometry_error": _number("geometry_error", geometry_error),
+        "windows_s": _pairs("windows_s", windows_s, "pairs of from and to, s"),
+        "high_pass_hz": None if high_pass_hz is None else _number("high_pass_hz", high_pass_hz),
+        "band_hz": bands[0] if bands else None,
         "kurtogram": kurtogram,
         "whiten": whiten,
     }
@@ -314,9 +365,11 @@ def analyze(
     if baseline is not None:
         speed = speed_hz if baseline_speed_hz is None else baseline_speed_hz
         rate = own["rate_hz"] if baseline_rate_hz is None and not isinstance(baseline, Signal) else baseline_rate_hz
-        earlier = (_samples(baseline, "baseline"), known(baseline, rate, None, speed, "baseline"), baseline_window_s)
+        window = None if baseline_window_s is None else _pairs("baseline_window_s", baseline_window_s, "from and to, s")
+        earlier = (_samples("baseline", baseline), known(baseline, rate, None, speed, "baseline"), window[0] if window else None)
     with Stages(progress) as stages:
-        found = Analysis(_plummer.analyze(_samples(x, "signal"), own, asked, None if case is None else case._case, earlier, stages.told))
+        found = Analysis(_plummer.analyze(_samples("signal", x), own, asked, None if case is None else case._case, earlier, stages.told))
+    found.warnings[:0] = doubts
     for text in found.warnings:
         warnings.warn(text, SignalWarning, stacklevel=2)
     reasons = [window.not_judged for window in found]

@@ -10,7 +10,7 @@ from typing import Any, Union
 
 from . import _plummer
 from ._condense import Superelement
-from ._errors import BlewUp, CaseError, Interrupted, UntrustedWarning
+from ._errors import BlewUp, CaseError, InputError, Interrupted, UntrustedWarning
 from ._frf import Frf
 from ._mesh import named
 from ._modes import Modes
@@ -25,6 +25,8 @@ def _arguments(settings: Settings) -> tuple[list[str], list[tuple[str, _plummer.
     if isinstance(settings, Mapping):
         values = {key: named(value, meshes) for key, value in settings.items()}
         return [f"{key}={_plummer.toml_value(value)}" for key, value in values.items()], list(meshes.items())
+    if isinstance(settings, (str, bytes)):
+        raise InputError(f"set: found {settings!r}, expected a dict, or a list of texts KEY=VALUE")
     return list(settings), []
 
 

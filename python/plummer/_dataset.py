@@ -47,7 +47,8 @@ class Dataset:
         files = [np.load(self.folder / name) for name in names]
         try:
             if not files:
-                return {}
+                reason = next(iter(self.failed.values()), "the data set is empty")
+                raise ComputationError(f"no signal could be computed: {reason}", "Dataset.failed has the reason of each")
             single = {"rate_hz", "label_names", "split_names"}
             return {key: files[0][key] if key in single else np.concatenate([file[key] for file in files]) for key in files[0].files}
         finally:
@@ -135,11 +136,14 @@ def dataset(
     ...     data.signals.shape, data.failed
     ((8, 1200), {})
     """
+    if isinstance(set, (str, bytes)):
+        raise InputError(f"set: found {set!r}, expected a dict, or a list of texts KEY=VALUE")
     settings = [f"{key}={_plummer.toml_value(value)}" for key, value in set.items()] if isinstance(set, Mapping) else list(set)
-    words = [sys.executable, "-m", "plummer", "dataset", os.fspath(spec), "--out", os.fspath(out), "--threads", str(_plummer.threads())]
+    words = [sys.executable, "-m", "plummer", "dataset", "--out", os.fspath(out), "--threads", str(_plummer.threads())]
     words += [] if count is None else ["--count", str(count)]
     words += [word for setting in settings for word in ("--set", setting)]
     words += [word for word, asked in (("--resume", resume), ("--force", force), ("--quiet", not progress)) if asked]
+    words += ["--", os.fspath(spec)]
     manifest = Path(out) / "manifest.json"
     before = manifest.stat().st_mtime_ns if manifest.exists() else None
     done = subprocess.run(words, stdout=subprocess.DEVNULL, stderr=None if progress else subprocess.PIPE, text=True)

@@ -83,7 +83,8 @@ class Mesh:
             order: ``"gmsh"``, or ``"vtk"`` as meshio has it: how the nodes of an element follow each other.
 
         Raises:
-            MeshError: a node or an element that is not there, an unknown kind, elements turned inside out.
+            MeshError: a node or an element that is not there, an unknown kind, coordinates that are no finite numbers. What is wrong
+                with elements is told where the mesh is computed with.
         """
         import numpy as np
 
@@ -111,7 +112,7 @@ class Mesh:
                 if kind in of
             ]
             given.append((KINDS[kind], np.ascontiguousarray(table).reshape(-1), own))
-        return cls(_plummer.Mesh.of_cells(np.asarray(points, dtype=float), given))
+        return cls(_plummer.Mesh.of_cells(_coordinates(points), given))
 
     @classmethod
     def from_meshio(cls, mesh: Any) -> Mesh:
@@ -203,11 +204,25 @@ class Mesh:
         return f"<plummer.Mesh: {len(self.points)} nodes, {kinds}; {', '.join(self.groups)}>"
 
 
+def _coordinates(given: ArrayLike) -> NDArray[np.float64]:
+    import numpy as np
+
+    array = np.asarray(given)
+    if array.ndim != 2 or array.shape[1] not in (2, 3):
+        raise MeshError(f"points: found an array of shape {array.shape}, expected [nodes, 3] or [nodes, 2]")
+    if array.dtype.kind not in "iuf" or np.ma.is_masked(given):
+        raise MeshError(f"points: found {'masked values' if np.ma.is_masked(given) else array.dtype}, expected real numbers")
+    wrong = np.flatnonzero(~np.isfinite(array).all(axis=1))
+    if wrong.size:
+        raise MeshError(f"points: node {wrong[0]} is at {array[wrong[0]].tolist()}, expected finite numbers")
+    return array.astype(float)
+
+
 def _whole(what: str, given: ArrayLike) -> NDArray[np.int64]:
     import numpy as np
 
     array = np.asarray(given)
-    if array.size and array.dtype.kind not in "iu":
+    if array.size and (array.dtype.kind not in "iu" or np.ma.is_masked(given)):
         raise MeshError(f"{what} has numbers of type {array.dtype}, expected whole numbers")
     return array.astype(np.int64)
 

@@ -150,8 +150,7 @@ impl Known {
         let series = TimeSeries::new(self.start_s, 1.0 / self.rate_hz, self.unit.clone(), values);
         let series =
             series.map_err(|error| ComputeError::Input { what: format!("{}: {error}", self.channel), help: None })?;
-        let (name, own_rate_hz) = (self.channel.clone(), Some(self.rate_hz));
-        Ok(MeasuredSignal { name, series, speed_hz: None, own_rate_hz, doubts: Vec::new() })
+        Ok(MeasuredSignal::in_memory(self.channel.clone(), series)?)
     }
 }
 
@@ -179,7 +178,7 @@ pub(crate) fn analyze(
         let kinematics = asked.motion(&known, setup.as_ref())?;
         let signal = known.signal(values)?;
         let mut windows = compute_analysis(std::slice::from_ref(&signal), &settings, &kinematics, told)?;
-        let mut warnings = signal_flaws(&signal, &settings.windows);
+        let mut warnings = signal_flaws(&signal, &settings.windows, Some(&kinematics));
         if let Some((values, known, window)) = earlier {
             let before = asked.motion(&known, setup.as_ref())?;
             let earlier = EarlierSignal {
@@ -190,9 +189,10 @@ pub(crate) fn analyze(
                 settings: &AnalysisSettings { windows: Vec::new(), ..settings.clone() },
             };
             compare_windows(&mut windows, &settings, &signal, &kinematics, &earlier)?;
-            warnings.extend(signal_flaws(earlier.signal, earlier.window.as_slice()));
+            warnings.extend(signal_flaws(earlier.signal, earlier.window.as_slice(), Some(&before)));
         }
         for window in &windows {
+            warnings.extend(window.doubts());
             warnings.extend(window.change.iter().flat_map(|change| change.warnings.clone()));
         }
         Ok((windows, warnings))

@@ -1,4 +1,6 @@
 //! Numbers that Rust owns, handed over to NumPy: their memory goes over, where it lies as NumPy has it.
+//!
+//! Nobody writes into them: results are saved from the same memory.
 
 use numpy::{Element, IntoPyArray, PyArray1, PyArray2, PyArray3, PyArrayMethods};
 use plummer::numerics::linalg::DenseMatrix;
@@ -6,7 +8,9 @@ use pyo3::prelude::*;
 
 /// A vector.
 pub(crate) fn vector<T: Element>(py: Python<'_>, values: Vec<T>) -> Bound<'_, PyArray1<T>> {
-    values.into_pyarray(py)
+    let array = values.into_pyarray(py);
+    let _ = array.readwrite().make_nonwriteable();
+    array
 }
 
 /// A table, row by row.

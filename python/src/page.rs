@@ -20,6 +20,7 @@ pub(crate) fn summary<'py>(
     summary.set_item("command", command)?;
     summary.set_item("case", case.source.path.to_string_lossy())?;
     summary.set_item("set", &case.source.set)?;
+    summary.set_item("case_digest", case.digest(command))?;
     summary.update(values::dict(py, result)?.as_mapping())?;
     Ok(summary)
 }

@@ -73,10 +73,25 @@ def test_what_the_command_calls_bad_is_no_silent_result() -> None:
         plummer.analyze(noise, rate_hz=12000, bearing="6205", speed_hz=0)
 
 
+def test_a_run_that_cannot_be_trusted_warns() -> None:
+    # a condensed housing of a few vectors
+    few = ["condense.fixed_interface_modes=20", "transient.end=2e-3", "analysis={}"]
+    case = plummer.Case.load("examples/housings/pillow_block.toml", set=few)
+    with pytest.warns(plummer.UntrustedWarning, match="the signals cannot be trusted"):
+        assert case.run().distrust
+
+
+def test_a_specification_that_is_wrong_is_wrong_input(tmp_path: Path) -> None:
+    with pytest.raises(plummer.InputError, match="cannot read the specification nothing.toml"):
+        plummer.dataset("nothing.toml", tmp_path)
+    with pytest.raises(plummer.InputError, match="set: found 'seed=2'"):
+        plummer.dataset("examples/datasets/two_machines.toml", tmp_path, set="seed=2")  # type: ignore[arg-type]
+
+
 def test_a_signal_or_a_speed_of_another_kind_is_refused() -> None:
     signal = np.random.default_rng(1).standard_normal(24000)
     asked: dict[str, Any] = {"rate_hz": 12000, "bearing": 6205, "speed_hz": np.float32(29.95)}
-    assert plummer.analyze(signal, **asked).indicated == []
+    assert pickle.loads(pickle.dumps(plummer.analyze(signal, **asked))).indicated == []
     with pytest.raises(plummer.InputError, match="values of type complex128, expected real numbers"):
         plummer.analyze(signal * 1j, **asked)
     for speed in ("1797rpm", [29.95], [[1, 2, 3]]):
@@ -100,7 +115,8 @@ def test_what_is_wrong_with_a_signal_is_a_warning() -> None:
     for signal, words in ((np.clip(noise, -1, 1), "clipping makes lines"), (still, "nothing changes from 0.0000 to 0.33")):
         with pytest.warns(plummer.SignalWarning, match=words):
             found = plummer.analyze(signal, **asked)
-        assert len(found.warnings) == 1
+        # and that no line confirms the speed
+        assert len(found.warnings) == 2
     with pytest.warns(plummer.SignalWarning, match="the input itself or a copy of it"):
         plummer.analyze(noise, baseline=noise.copy(), **asked)
 
@@ -114,6 +130,72 @@ def test_a_bearing_is_said_once_and_with_a_speed() -> None:
         plummer.analyze(noise, rate_hz=12000, bearing="6205")
     with pytest.raises(plummer.InputError, match="a case without .bearing. or .shaft."):
         plummer.analyze(noise, rate_hz=12000, bearing=plummer.Case.load("examples/modal/ring.toml"), speed_hz=30.0)
+
+
+@pytest.mark.parametrize(
+    ("key", "value", "words"),
+    [
+        ("windows_s", [(0, 1, 2)], "windows_s: found"),
+        ("windows_s", "0:1", "windows_s: found '0:1', expected pairs of from and to, s"),
+        ("band_hz", (4000, 2000), "band_hz: found .* expected from below to"),
+        ("band_hz", "kurtosis", "band_hz: found 'kurtosis'"),
+        ("orders", {}, "orders: found {}, expected a dict of some of outer"),
+        ("orders", {"outer": "3.58"}, "orders: outer: found '3.58', expected a number"),
+        ("balls", 9.5, "balls: found 9.5, expected a whole number"),
+        ("rate_hz", "12000", "rate_hz: found '12000', expected a number"),
+        ("rate_hz", True, "rate_hz: found True, expected a number"),
+        ("bearing", 6205.0, "bearing: found 6205.0, expected a name"),
+    ],
+)
+def test_arguments_of_another_kind_are_named(key: str, value: Any, words: str) -> None:
+    noise = np.random.default_rng(1).standard_normal(24000)
+    asked: dict[str, Any] = {"rate_hz": 12000, "bearing": "6205", "speed_hz": 29.95, key: value}
+    if key in ("orders", "balls"):
+        del asked["bearing"]
+    if key == "balls":
+        asked.update(ball_diameter=8, pitch_diameter=39)
+    with pytest.raises(plummer.InputError, match=words):
+        plummer.analyze(noise, **asked)
+
+
+def test_a_signal_that_is_not_all_there_or_beyond_numbers_is_refused() -> None:
+    noise = np.random.default_rng(1).standard_normal(24000)
+    asked: dict[str, Any] = {"rate_hz": 12000, "bearing": "6205", "speed_hz": 29.95}
+    with pytest.raises(plummer.InputError, match="signal: found masked samples"):
+        plummer.analyze(np.ma.masked_greater(noise, 3), **asked)
+    for factor in (1e61, 1e-70):
+        with pytest.raises(plummer.InputError, match="expected a largest magnitude from 1e-60 to 1e60"):
+            plummer.analyze(factor * noise, **asked)
+    with pytest.warns(plummer.SignalWarning, match="the speed is given from 100.00 to 200.00 s, and the signal lasts from 0.0000"):
+        plummer.analyze(noise, **{**asked, "speed_hz": [(100, 29.95), (200, 29.95)]})
+
+
+def test_results_are_read_only_and_no_other_is_replaced(tmp_path: Path) -> None:
+    case = plummer.Case.load("examples/scenes/impact.toml")
+    run = case.run()
+    with pytest.raises(ValueError, match="read-only"):
+        run["P1"].values *= 1000
+    with pytest.raises(TypeError, match="a Run does not go through pickle"):
+        copy.deepcopy(run)
+    run.save(tmp_path)
+    run.save(tmp_path)
+    case["shaft.mass"] = 0.3
+    with pytest.raises(plummer.InputError, match="run.json is the result of an earlier computation of other values"):
+        case.run().save(tmp_path)
+    case.run().save(tmp_path, force=True)
+
+
+def test_a_rate_beside_that_of_a_run_is_told() -> None:
+    case = plummer.Case.load("examples/tadina2011/outer-dent.toml", set={"transient.end": 0.5, "analysis": {}})
+    signal = case.run()["P1"]
+    with pytest.warns(plummer.SignalWarning, match="rate_hz takes 50000 Hz for what the signal says"):
+        plummer.analyze(signal, rate_hz=50000, bearing=case, speed_hz=6.0)
+
+
+def test_a_list_of_settings_is_no_text() -> None:
+    for use in (plummer.Case.load, lambda path, set: plummer.Case.load(path).update(set)):
+        with pytest.raises(plummer.InputError, match="set: found 'modes.count=3', expected a dict, or a list"):
+            use("examples/modal/ring.toml", set="modes.count=3")
 
 
 def test_cases_and_meshes_go_through_pickle() -> None:

@@ -38,6 +38,19 @@ def test_a_mesh_of_meshio_has_its_groups(path: str, file: str) -> None:
     np.testing.assert_allclose(frequencies(path, mesh), frequencies(path, None), rtol=1e-9, atol=0.1)
 
 
+def test_physical_groups_of_meshio_in_several_blocks() -> None:
+    meshio = pytest.importorskip("meshio")
+    points = np.array([[x, y, z] for x in range(4) for y in range(2) for z in range(2)], dtype=float)
+    bricks = [("hexahedron", 4 * x + np.array([[0, 4, 6, 2, 1, 5, 7, 3]])) for x in range(3)]
+    of_gmsh = {"gmsh:physical": [np.array([1]), np.array([2]), np.array([2])]}
+    names = {"light": np.array([1, 3]), "heavy": np.array([2, 3])}
+    mesh = plummer.Mesh.from_meshio(meshio.Mesh(points, bricks, cell_data=of_gmsh, field_data=names))
+    materials = {name: {"young": 1e9, "poisson": 0.3, "density": density} for name, density in (("light", 1.0), ("heavy", 10.0))}
+    parts = [{"group": name, "material": name} for name in materials]
+    case = plummer.Case({"materials": materials, "housing": {"mesh": mesh, "length_unit": "m", "parts": parts}, "modes": {"count": 7}})
+    assert case.modes().mass_kg == pytest.approx(21.0)
+
+
 def test_the_open_model_of_gmsh_is_a_mesh_without_a_file() -> None:
     gmsh = pytest.importorskip("gmsh")
     gmsh.initialize(interruptible=False)
@@ -52,6 +65,13 @@ def test_the_open_model_of_gmsh_is_a_mesh_without_a_file() -> None:
         gmsh.clear()
         with pytest.raises(plummer.MeshError):
             plummer.Mesh.from_gmsh()
+        # of two boxes the one in a group counts, as in a file
+        boxes = [gmsh.model.occ.addBox(2 * place, 0, 0, 1, 1, 1) for place in range(2)]
+        gmsh.model.occ.synchronize()
+        gmsh.model.mesh.generate(3)
+        gmsh.model.addPhysicalGroup(3, boxes[:1], name="one")
+        mesh = plummer.Mesh.from_gmsh()
+        assert list(mesh.kinds) == ["Tet4"] and mesh.points[:, 0].max() == 1.0
     finally:
         gmsh.finalize()
 
@@ -97,8 +117,10 @@ def test_arrays_that_are_no_mesh_are_refused() -> None:
     ]:
         with pytest.raises(plummer.MeshError, match=words):
             plummer.Mesh.from_arrays(square, cells, groups)
-    with pytest.raises(plummer.MeshError, match=r"shape \[4, 1\]"):
+    with pytest.raises(plummer.MeshError, match=r"shape \(4, 1\), expected \[nodes, 3\]"):
         plummer.Mesh.from_arrays([[0], [1], [2], [3]], {"quad": [[0, 1, 2, 3]]})
+    with pytest.raises(plummer.MeshError, match=r"points: node 2 is at \[1.0, nan\], expected finite numbers"):
+        plummer.Mesh.from_arrays([*square[:2], [1, np.nan], square[3]], {"quad": [[0, 1, 2, 3]]})
     with pytest.raises(plummer.MeshError, match="order: found 'abaqus'"):
         plummer.Mesh.from_arrays(square, {"quad": [[0, 1, 2, 3]]}, order="abaqus")
     mask = plummer.Mesh.from_arrays(square, {"quad": [[0, 1, 2, 3]]}, {"plate": {"quad": [True]}})

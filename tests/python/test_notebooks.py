@@ -7,6 +7,7 @@ import os
 import re
 import subprocess
 import sys
+from typing import Any
 
 import pytest
 
@@ -28,5 +29,7 @@ def test_a_notebook_runs(notebook: "os.PathLike[str]") -> None:
     for module in re.findall(r"^(?:import|from) (\w+)", text, re.MULTILINE):
         if importlib.util.find_spec(module) is None:
             pytest.skip(f"{module} is not installed")
-    done = subprocess.run([sys.executable, notebook], capture_output=True, text=True, env={**os.environ, "MPLBACKEND": "agg"})
+    # where Jupyter runs it
+    options: dict[str, Any] = {"capture_output": True, "text": True, "env": {**os.environ, "MPLBACKEND": "agg"}}
+    done = subprocess.run([sys.executable, notebook], cwd=ROOT / "docs" / "notebooks", **options)
     assert done.returncode == 0, done.stderr[-3000:]

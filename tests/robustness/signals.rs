@@ -87,7 +87,7 @@ fn words_against_the_file_are_said() {
     }
     let line = "analyze good.csv --channel x --bearing 6205 --speed 0:10,0.2:30 --out out --force";
     let output = plummer(&folder, &line.split_whitespace().collect::<Vec<_>>());
-    assert!(errors(&output).contains("--speed says the speed from 0.0000 to 0.20000 s"), "{}", errors(&output));
+    assert!(errors(&output).contains("the speed is given from 0.0000 to 0.20000 s"), "{}", errors(&output));
     let mut file = NpzWriter::create(folder.join("own.npz")).unwrap();
     let mut dice = Dice(7);
     let values: Vec<f64> = (0..4000).map(|_| dice.fraction() - 0.5).collect();

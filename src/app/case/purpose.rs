@@ -336,9 +336,10 @@ const OF_STRUCTURE: [&str; 9] =
     ["frf", "modes", "transient", "damping", "accuracy", "condense", "sensors", "housing", "ring"];
 
 impl Case {
-    /// SHA-256 of what the result of a command depends on, 64 hexadecimal digits: the values, and the content of [`Case::tables`]. Meshes
+    /// SHA-256 of what the result of a command depends on, 64 hexadecimal digits: the values, and the content of its tables. Meshes
     /// stand by their own digests in results. `None` of values that have no JSON.
-    pub(crate) fn digest(&self, command: &str) -> Option<String> {
+    #[must_use]
+    pub fn digest(&self, command: &str) -> Option<String> {
         let mut text = self.values(command, &VIEWS)?;
         for table in self.tables(command) {
             // one that cannot be read is named where it is needed

@@ -26,6 +26,24 @@ pub struct MeasuredSignal {
     pub doubts: Vec<String>,
 }
 
+impl MeasuredSignal {
+    /// A signal in memory.
+    ///
+    /// # Errors
+    /// [`MeasuredError`] for magnitudes whose fourth powers no number holds.
+    pub fn in_memory(name: String, series: TimeSeries) -> Result<Self, MeasuredError> {
+        check_magnitude(&name, &series).map_err(|fault| MeasuredError::refused(fault.to_string()))?;
+        Ok(Self { name, own_rate_hz: Some(series.rate_hz()), series, speed_hz: None, doubts: Vec::new() })
+    }
+}
+
+fn check_magnitude(name: &str, series: &TimeSeries) -> Result<(), Fault> {
+    let (peak, [least, most]) = (series.peak(), MAGNITUDES);
+    let fits = peak == 0.0 || (least..=most).contains(&peak);
+    let expected = format!("a largest magnitude from {least:e} to {most:e}");
+    Fault::unless(fits, expected, format_args!("{peak:e}")).map_err(|fault| fault.within(format!("channel \"{name}\"")))
+}
+
 /// What is wanted of a file.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct SignalRequest {
@@ -53,11 +71,7 @@ impl Channel {
         let series = TimeSeries::new(start_s, step_s, self.unit, self.values).map_err(|error| {
             MeasuredError::refused(format!("{}: channel \"{}\": {error}", path.display(), self.name))
         })?;
-        let (peak, [least, most]) = (series.peak(), MAGNITUDES);
-        let fits = peak == 0.0 || (least..=most).contains(&peak);
-        let expected = format!("a largest magnitude from {least:e} to {most:e}");
-        Fault::unless(fits, expected, format_args!("{peak:e}"))
-            .map_err(|fault| fault.within(format!("channel \"{}\"", self.name)).of(path))?;
+        check_magnitude(&self.name, &series).map_err(|fault| fault.of(path))?;
         let own_rate_hz = self.clock.rate_hz();
         Ok(MeasuredSignal { name: self.name, series, speed_hz: self.speed_hz, own_rate_hz, doubts: self.doubts })
     }

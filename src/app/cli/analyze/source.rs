@@ -105,9 +105,10 @@ impl Source {
         let mut doubts = turning.alike.clone();
         for signal in &signals {
             let typed = turning.overruled(signal, asked.rate.map(|rate| (option, rate)));
-            let flaws = signal_flaws(signal, &settings.windows);
+            let motion = turning.motion(signal);
+            let flaws = signal_flaws(signal, &settings.windows, motion.as_ref().map(|(kinematics, _)| kinematics));
             extend_new(&mut doubts, typed.into_iter().chain(flaws).chain(signal.doubts.clone()));
-            extend_new(&mut assumptions, turning.motion(signal).into_iter().flat_map(|(_, notes)| notes));
+            extend_new(&mut assumptions, motion.into_iter().flat_map(|(_, notes)| notes));
         }
         signals.iter().try_for_each(|signal| below_half_the_rate(asked, input, signal))?;
         Ok(Self { signals, settings, case, is_run, details, assumptions, doubts, absent: read.absent, turning })

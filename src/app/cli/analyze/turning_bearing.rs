@@ -155,14 +155,6 @@ impl TurningBearing {
                 shaft_speed(own, 6)
             ));
         }
-        if let &[first, .., last] = profile.knot_times().collect::<Vec<f64>>().as_slice()
-            && !(first <= span.from && span.to <= last)
-        {
-            let [first, last, from, to] = [first, last, span.from, span.to].map(|value| significant(value, 5));
-            said.push(format!(
-                "--speed says the speed from {first} to {last} s, and the signal lasts from {from} to {to} s: the speeds at the ends go on"
-            ));
-        }
         said
     }
 

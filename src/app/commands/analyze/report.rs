@@ -61,8 +61,8 @@ pub(crate) fn verdict_lines(window: &WindowAnalysis, truth: impl Fn(&WindowAnaly
         significant(diagnosis.spectrum.turns, 3),
         diagnosis.headline()
     )];
-    let doubts = [diagnosis.speed_doubt(), diagnosis.speed_change()].map(|doubt| Some(format!("warning: {}", doubt?)));
-    let said = [Some(diagnosis.reason()), truth(window)].into_iter().chain(doubts).flatten();
+    let doubts = window.doubts().into_iter().map(|doubt| format!("warning: {doubt}"));
+    let said = [Some(diagnosis.reason()), truth(window)].into_iter().flatten().chain(doubts);
     lines.extend(said.map(|text| format!("  {text}")));
     let table = verdict_table(diagnosis, "Reason", |verdict| &verdict.reason).plain();
     lines.extend(table.lines().skip(1).map(str::to_owned));

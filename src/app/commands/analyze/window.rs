@@ -232,6 +232,13 @@ impl WindowAnalysis {
         self.diagnosis.as_ref().is_ok_and(Diagnosis::is_judged)
     }
 
+    /// What makes its verdict doubtful, a sentence each: a speed that no line confirms, or another speed than the given one.
+    #[must_use]
+    pub fn doubts(&self) -> Vec<String> {
+        let diagnosis = self.diagnosis.iter();
+        diagnosis.flat_map(|found| [found.speed_doubt(), found.speed_change()].into_iter().flatten()).collect()
+    }
+
     /// The parts of which this is said.
     pub(crate) fn parts(&self, conclusion: Conclusion) -> impl Iterator<Item = &FaultVerdict> {
         let verdicts = self.diagnosis.iter().flat_map(|found| &found.faults);
