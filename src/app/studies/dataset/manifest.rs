@@ -169,7 +169,7 @@ impl DatasetPlan {
             errors.filter(|(error, target)| *error > TOLD * target).map(|(error, _)| error).collect();
         let worst = missed.iter().copied().reduce(f64::max)?;
         Some(format!(
-            "{} of {} signals miss accuracy.target by more than twice (estimated errors up to {}): see manifest.csv",
+            "{} of {} signals miss accuracy.target by more than twice (estimated errors up to {}): estimated_error in manifest.csv has each",
             missed.len(),
             there.len(),
             significant(worst, 2)
