@@ -179,7 +179,7 @@ pub(crate) fn analyze(
         let kinematics = asked.motion(&known, setup.as_ref())?;
         let signal = known.signal(values)?;
         let mut windows = compute_analysis(std::slice::from_ref(&signal), &settings, &kinematics, told)?;
-        let mut warnings = signal_flaws(&signal, &settings.windows);
+        let mut warnings = signal_flaws(&signal, &settings.windows, settings.good_to_hz);
         if let Some((values, known, window)) = earlier {
             let before = asked.motion(&known, setup.as_ref())?;
             let earlier = EarlierSignal {
@@ -190,7 +190,7 @@ pub(crate) fn analyze(
                 settings: &AnalysisSettings { windows: Vec::new(), ..settings.clone() },
             };
             compare_windows(&mut windows, &settings, &signal, &kinematics, &earlier)?;
-            warnings.extend(signal_flaws(earlier.signal, earlier.window.as_slice()));
+            warnings.extend(signal_flaws(earlier.signal, earlier.window.as_slice(), settings.good_to_hz));
         }
         for window in &windows {
             warnings.extend(window.change.iter().flat_map(|change| change.warnings.clone()));

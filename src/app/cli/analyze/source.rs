@@ -105,7 +105,7 @@ impl Source {
         let mut doubts = turning.alike.clone();
         for signal in &signals {
             let typed = turning.overruled(signal, asked.rate.map(|rate| (option, rate)));
-            let flaws = signal_flaws(signal, &settings.windows);
+            let flaws = signal_flaws(signal, &settings.windows, settings.good_to_hz);
             extend_new(&mut doubts, typed.into_iter().chain(flaws).chain(signal.doubts.clone()));
             extend_new(&mut assumptions, turning.motion(signal).into_iter().flat_map(|(_, notes)| notes));
         }
