@@ -178,7 +178,7 @@ pub(crate) fn analyze(
         let kinematics = asked.motion(&known, setup.as_ref())?;
         let signal = known.signal(values)?;
         let mut windows = compute_analysis(std::slice::from_ref(&signal), &settings, &kinematics, told)?;
-        let mut warnings = signal_flaws(&signal, &settings.windows, Some(&kinematics));
+        let mut warnings = signal_flaws(&signal, &settings.windows, None, Some(&kinematics));
         if let Some((values, known, window)) = earlier {
             let before = asked.motion(&known, setup.as_ref())?;
             let earlier = EarlierSignal {
@@ -189,7 +189,7 @@ pub(crate) fn analyze(
                 settings: &AnalysisSettings { windows: Vec::new(), ..settings.clone() },
             };
             compare_windows(&mut windows, &settings, &signal, &kinematics, &earlier)?;
-            warnings.extend(signal_flaws(earlier.signal, earlier.window.as_slice(), Some(&before)));
+            warnings.extend(signal_flaws(earlier.signal, earlier.window.as_slice(), None, Some(&before)));
         }
         for window in &windows {
             warnings.extend(window.doubts());

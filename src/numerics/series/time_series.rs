@@ -195,28 +195,51 @@ impl TimeSeries {
     }
 }
 
-/// Equal samples in a row at the largest or smallest value from which they are clipped: a smooth top has two at most, by rounding.
+/// Equal samples in a row at the largest or smallest value from which they are clipped, and how many times as many as at the next
+/// value: a smooth top has two by rounding, that of a quantised sine more, and 1.4 times as many as the next step.
 const CLIPPED_RUN: usize = 3;
+const RUN_TIMES: usize = 2;
+/// The same without a row, and fewest values that the signal takes: pulses between a few levels are not clipped.
+const CLIPPED_COUNT: usize = 20;
+const COUNT_TIMES: usize = 4;
+const CLIPPED_LEVELS: usize = 64;
+/// Values as near, over the range, are one: a sine that is sampled again and again at the same phases differs so by rounding.
+const SAME_LEVEL: f64 = 1e-9;
 
 impl TimeSeries {
-    /// Share of the samples, 0 to 1, at the largest or the smallest value, where three in a row lie at one of them: a converter's range
-    /// ends there. 0 for a constant signal.
+    /// Share of the samples, 0 to 1, at the largest or the smallest value, where three in a row or many lie at one of them, and far fewer at
+    /// the next: a converter's range ends there. 0 for a constant signal.
     #[must_use]
     pub(crate) fn clipped_share(&self) -> f64 {
         let values = self.values();
-        let ends = values
-            .iter()
-            .fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], &value| [value.min(low), value.max(high)]);
-        if ends[0] >= ends[1] {
+        let mut sorted = values.to_vec();
+        sorted.sort_unstable_by(f64::total_cmp);
+        let last = sorted.len() - 1;
+        let (lowest, highest) = (sorted[0], sorted[last]);
+        if lowest >= highest {
             return 0.0;
         }
-        let at_an_end = |run: &&[f64]| ends.contains(&run[0]);
-        let lengths: Vec<usize> = runs(values).filter(at_an_end).map(<[f64]>::len).collect();
-        // a square wave has no row
-        if !lengths.iter().any(|&length| length >= CLIPPED_RUN) {
+        let near = SAME_LEVEL * (highest - lowest);
+        let levels = sorted.chunk_by(|a, b| b - a <= near).take(CLIPPED_LEVELS).count();
+        let at_lowest = sorted.partition_point(|&x| x <= lowest);
+        let below_highest = sorted.partition_point(|&x| x < highest);
+        let counts = [
+            (lowest, at_lowest, sorted.partition_point(|&x| x <= sorted[at_lowest] + near) - at_lowest),
+            (
+                highest,
+                sorted.len() - below_highest,
+                below_highest - sorted.partition_point(|&x| x < sorted[below_highest - 1] - near),
+            ),
+        ];
+        let clipped = |(end, count, next): (f64, usize, usize)| {
+            let in_a_row = || runs(values).any(|run| run.len() >= CLIPPED_RUN && [end].contains(&run[0]));
+            let piled = count >= CLIPPED_COUNT && count >= COUNT_TIMES * next && levels == CLIPPED_LEVELS;
+            piled || count >= RUN_TIMES * next && in_a_row()
+        };
+        if !counts.into_iter().any(clipped) {
             return 0.0;
         }
-        lengths.iter().sum::<usize>() as f64 / values.len() as f64
+        (counts[0].1 + counts[1].1) as f64 / values.len() as f64
     }
 
     /// The longest stretch of equal samples, s; as long as a sample where no two are equal.
@@ -385,6 +408,33 @@ mod flaws_tests {
         // a square wave is none; nor is a constant
         assert_eq!(share(&[1.0, -1.0, 1.0, -1.0]), 0.0);
         assert_eq!(share(&[5.0; 8]), 0.0);
+    }
+
+    /// What rings near a quarter of the sampling rate has no three samples in a row at an end.
+    #[test]
+    fn a_pile_at_an_end_of_the_range_is_clipped() {
+        let share = |value: &dyn Fn(f64) -> f64| {
+            series(&(0..4000).map(f64::from).map(value).collect::<Vec<f64>>()).clipped_share()
+        };
+        let ringing = |k: f64| (1.0 + 0.5 * (0.0137 * k).sin()) * (1.6 * k).sin();
+        assert!(share(&|k| ringing(k)) < 1e-12);
+        let clipped = share(&|k| ringing(k).clamp(-1.2, 9.0));
+        assert!((0.05..0.2).contains(&clipped), "{clipped}");
+        assert!((clipped - share(&|k| (-ringing(k)).min(1.2))).abs() < 1e-12);
+        // a converter of eight bits, whose range holds it, and is too small
+        assert!(share(&|k| (80.0 * ringing(k)).round()) < 1e-12);
+        assert!(share(&|k| (80.0 * ringing(k)).round().min(90.0)) > 0.05);
+        // sines, sampled coherently or quantised
+        for k_hz in [0.125, 0.01, 0.0025] {
+            let sine = |k: f64| (std::f64::consts::TAU * k_hz * k).sin();
+            for stored in [|x: f64| x, |x: f64| f64::from(x as f32), |x: f64| (200.0 * x).round()] {
+                assert!(share(&|k| stored(sine(k))) < 1e-12, "{k_hz}");
+            }
+        }
+        // a quantised sine has three in a row at its top, pulses stay at theirs
+        assert!(share(&|k| (50.0 * (0.02 * k).sin()).round()) < 1e-12);
+        assert!(share(&|k| (0.02 * k).sin().signum()) < 1e-12);
+        assert!(share(&|k| if k % 10.0 < 1.0 { 1.0 } else { [-1.0, -0.5][k as usize % 2] }) < 1e-12);
     }
 
     #[allow(clippy::float_cmp)] // times of halves

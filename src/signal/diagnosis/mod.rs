@@ -8,6 +8,7 @@
 //! 6. `explain`: what explains most goes first; its lines are no evidence for the rest (`known`). `unexplained`: combs of no part.
 //!    `cage_lines`: a ball whose own lines are smeared shows by those of the cage.
 //!    `doubts`: lines of a part that may be something else's.
+//!    `spectrum_end`: bands end where a resampled or filtered signal does.
 //! 7. [`Diagnosis`]: fault indicated, not enough evidence, or not seen, with the evidence; and impacts that belong to no part.
 //! 8. `line_changes`: what of it grew since an earlier signal, and by how much (`stretch_spectrum`, `comb_power`, `ratio_interval`);
 //!    `level_changes`: the same of the vibration as a whole and in octaves.
@@ -40,6 +41,7 @@ mod order_spectrum;
 mod ratio_interval;
 mod search;
 mod shaft_speed;
+mod spectrum_end;
 mod stretch_spectrum;
 mod strictly_periodic;
 #[cfg(test)]
@@ -61,6 +63,7 @@ pub use line_change::{
 pub(crate) use line_change::{change_words, level_changes};
 pub use order_spectrum::EnvelopeOrderSpectrum;
 pub use shaft_speed::SpeedSource;
+pub(crate) use spectrum_end::spectrum_end_hz;
 pub use verdict::{
     BALL_BY_CAGE_BELOW, CageLines, Conclusion, FaultVerdict, Harmonic, LEAST_CAGE_LINES_DB, LEAST_CAGE_STRENGTH_DB,
     LEAST_HARMONICS, LEAST_IMPULSIVENESS, LEAST_SHORT_HARMONICS, LEAST_SHORT_IMPULSIVENESS, LEAST_SHORT_STRENGTH_DB,

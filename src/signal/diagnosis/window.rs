@@ -9,6 +9,7 @@
 //! of the Audio Engineering Society 32 (1984) 106-113.
 
 use super::bands::{Spectra, band_spectra, check_band, searched_band};
+use super::cage_lines::doubt_clipped;
 use super::comb::SHOWN_HARMONICS;
 use super::explain::Found;
 use super::findings::envelope_name;
@@ -116,6 +117,7 @@ impl Diagnosis {
             speed = races;
             (spectra, found) = search(speed)?;
         }
+        doubt_clipped(&mut found.faults, judged.clipped_share());
         say_strictly_periodic(&mut found.faults, &white, within_hz, orders, speed.factor * given_speed_hz, speed);
         let sharp = |time: f64| speed.factor * turns(time);
         let best = &spectra.lines[found.spectrum];

@@ -106,7 +106,12 @@ impl Source {
         for signal in &signals {
             let typed = turning.overruled(signal, asked.rate.map(|rate| (option, rate)));
             let motion = turning.motion(signal);
-            let flaws = signal_flaws(signal, &settings.windows, motion.as_ref().map(|(kinematics, _)| kinematics));
+            let flaws = signal_flaws(
+                signal,
+                &settings.windows,
+                settings.good_to_hz,
+                motion.as_ref().map(|(kinematics, _)| kinematics),
+            );
             extend_new(&mut doubts, typed.into_iter().chain(flaws).chain(signal.doubts.clone()));
             extend_new(&mut assumptions, motion.into_iter().flat_map(|(_, notes)| notes));
         }

@@ -7,7 +7,7 @@ use crate::numerics::series::{TimeSeries, TimeWindow};
 use crate::report::shaft_speed;
 use crate::signal::diagnosis::{
     ChangeConclusion, ComparedSignal, Conclusion, Diagnosis, DiagnosisError, Fault, Kinematics, LineChange,
-    NAMED_BELOW, STRONG_CHANGE_DB, level_changes, line_changes,
+    NAMED_BELOW, STRONG_CHANGE_DB, level_changes, line_changes, spectrum_end_hz,
 };
 
 /// Speeds that differ by more than this part excite resonances differently.
@@ -146,7 +146,8 @@ fn compare_window(
     if let Ok(diagnosis) = &window.diagnosis {
         let orders = earlier.kinematics.orders(compared)?;
         let turns = |time| earlier.kinematics.turns(time);
-        let within_hz = window.band.judged_hz(settings.band, earlier.settings.good_to_hz);
+        let good_to_hz = earlier.settings.good_to_hz.or_else(|| spectrum_end_hz(&part));
+        let within_hz = window.band.judged_hz(settings.band, good_to_hz);
         match earlier.settings.judge(&before, within_hz, compared, turns, &orders) {
             Ok(found) => {
                 let turns_now = |time| kinematics.turns(time);

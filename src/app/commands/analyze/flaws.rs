@@ -1,9 +1,10 @@
-//! What is wrong with a signal before anything is judged: clipped samples, stretches that stand still, a speed of another time.
+//! What is wrong with a signal before anything is judged: clipped samples, stretches that stand still, a spectrum that ends early, a
+//! speed of another time.
 
 use crate::formats::MeasuredSignal;
 use crate::numerics::series::{TimeSeries, TimeWindow};
 use crate::report::significant;
-use crate::signal::diagnosis::Kinematics;
+use crate::signal::diagnosis::{Kinematics, spectrum_end_hz};
 
 /// Share of clipped samples that is said: fewer are a spike or two.
 const CLIPPED: f64 = 1e-3;
@@ -11,11 +12,13 @@ const CLIPPED: f64 = 1e-3;
 const STILL: f64 = 0.01;
 const STILL_SAMPLES: f64 = 100.0;
 
-/// What a sensor or a converter did to a signal that is not constant, in its windows (s) or as a whole: a sentence each.
+/// What a sensor or a converter did to a signal that is not constant, in its windows (s) or as a whole: a sentence each. Of a simulated
+/// signal, which is accurate to `good_to_hz`, nothing is said of where its spectrum ends.
 #[must_use]
 pub fn signal_flaws(
     signal: &MeasuredSignal,
     windows: &[TimeWindow],
+    good_to_hz: Option<f64>,
     kinematics: Option<&Kinematics<'_>>,
 ) -> Vec<String> {
     let all = [signal.series.span()];
@@ -23,7 +26,9 @@ pub fn signal_flaws(
     // a window outside the signal is named where it is analysed
     let parts = windows.iter().filter_map(|window| signal.series.window(window.from, window.to).ok());
     let gap = kinematics.and_then(|kinematics| speed_gap(kinematics, signal.series.span()));
-    gap.into_iter().chain(parts.flat_map(|part| flaws_of(&signal.name, &part))).collect()
+    let flaws =
+        parts.flat_map(|part| [flaws_of(&signal.name, &part), end_of(&signal.name, &part, good_to_hz)].concat());
+    gap.into_iter().chain(flaws).collect()
 }
 
 /// That a speed was given for other times than those of a signal (s), if it was.
@@ -36,6 +41,17 @@ fn speed_gap(kinematics: &Kinematics<'_>, span: TimeWindow) -> Option<String> {
     (!covered).then(|| {
         format!("the speed is given from {first} to {last} s, and the signal lasts from {from} to {to} s: the speeds at the ends go on")
     })
+}
+
+fn end_of(name: &str, series: &TimeSeries, good_to_hz: Option<f64>) -> Vec<String> {
+    let end_hz = spectrum_end_hz(series).filter(|_| good_to_hz.is_none());
+    let said = end_hz.map(|end_hz| {
+        format!(
+            "{name}: nothing above {} Hz, as of a low-pass or a change to a higher sampling rate: verdicts look below, unless --band says otherwise",
+            significant(end_hz, 2)
+        )
+    });
+    said.into_iter().collect()
 }
 
 fn flaws_of(name: &str, series: &TimeSeries) -> Vec<String> {
@@ -58,4 +74,39 @@ fn flaws_of(name: &str, series: &TimeSeries) -> Vec<String> {
         ));
     }
     said
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::app::commands::analyze::{AnalysisSettings, compute_analysis};
+    use crate::bearing::SpeedProfile;
+    use crate::numerics::Unwatched;
+    use crate::signal::band_limit;
+    use crate::signal::diagnosis::FaultOrders;
+    use crate::signal::samples::gaussian;
+
+    #[test]
+    fn a_signal_that_ends_early_is_told_and_judged_below() {
+        let noise = TimeSeries::new(0.0, 1.0 / 24e3, "g", gaussian(96_000, 7)).unwrap();
+        let series = band_limit(&noise, 8e3).unwrap();
+        let signal =
+            MeasuredSignal { name: "P1".to_owned(), series, speed_hz: None, own_rate_hz: None, doubts: Vec::new() };
+        let said = signal_flaws(&signal, &[], None, None);
+        assert_eq!(said.len(), 1);
+        assert!(said[0].starts_with("P1: nothing above 8"), "{said:?}");
+        assert!(signal_flaws(&signal, &[], Some(12e3), None).is_empty());
+        let motion = Kinematics::Given {
+            orders: FaultOrders::new([Some(3.5848), Some(5.4152), Some(4.7135), None], 0.01).unwrap(),
+            speed: SpeedProfile::constant(30.0).unwrap(),
+        };
+        let highest = |good_to_hz: Option<f64>| {
+            let settings = AnalysisSettings { good_to_hz, ..AnalysisSettings::default() };
+            let windows = compute_analysis(std::slice::from_ref(&signal), &settings, &motion, &Unwatched).unwrap();
+            let found = windows[0].diagnosis.as_ref().unwrap();
+            found.faults.iter().filter_map(|verdict| verdict.band_hz).fold(0.0, |most: f64, band| most.max(band[1]))
+        };
+        assert!(highest(None) < 9e3);
+        assert!((highest(Some(12e3)) - highest(None)).abs() > 1.0);
+    }
 }

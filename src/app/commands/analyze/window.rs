@@ -14,7 +14,7 @@ use crate::numerics::series::{PASSED, TimeSeries, TimeWindow};
 use crate::report::{Curve, Thinner, quantity, significant};
 use crate::signal::diagnosis::{
     Conclusion, Diagnosis, DiagnosisError, EnvelopeOrderSpectrum, Fault, FaultOrders, FaultVerdict, Kinematics,
-    LevelChange, LineChange,
+    LevelChange, LineChange, spectrum_end_hz,
 };
 use crate::signal::{
     Emphasis, EnvelopeAnalysis, EnvelopePeak, EnvelopeSpectrum, NamedLine, PeakSearch, band_limit, envelope_peaks,
@@ -301,7 +301,8 @@ pub fn analyse(
             let of_lines = whitened.as_ref().unwrap_or(&envelope);
             let spectrum = filter.window_of(of_lines, from, to)?;
             let turns = |time| kinematics.turns(time);
-            let within_hz = band.judged_hz(settings.band, settings.good_to_hz);
+            let good_to_hz = settings.good_to_hz.or_else(|| spectrum_end_hz(&part));
+            let within_hz = band.judged_hz(settings.band, good_to_hz);
             let diagnosis = settings.judge(&stretch, within_hz, window, turns, &orders);
             let sharp = sharp_order(kinematics.speed_spread_hz(window), to - from);
             let (lines, smeared) = lines(speed_hz, &orders, diagnosis.as_ref().ok(), sharp)?;

@@ -33,6 +33,21 @@ fn a_ball_whose_own_lines_are_smeared_shows_by_the_cages() {
 }
 
 #[test]
+fn the_cages_lines_of_a_clipped_signal_indicate_nothing() {
+    let orders = bearing();
+    let signal = one_ball_differs(6.0, 1.002 * orders.cage, 0.3, 31);
+    let clipped_at = |most: f64| {
+        let values = signal.values().iter().map(|value| value.clamp(-most, most)).collect();
+        judged(&signal.with_values(values).unwrap(), steady, &orders, 0.01)
+    };
+    // 3 and 30 in 1000 samples
+    assert_eq!(named(&clipped_at(3.4)), [Fault::Ball]);
+    let found = clipped_at(2.4);
+    assert_eq!(named(&found), [], "{:#?}", found.faults);
+    assert!(verdict(&found, Fault::Ball).why.contains("% of the samples are clipped"));
+}
+
+#[test]
 fn noise_alone_and_a_race_that_is_indicated_name_no_ball() {
     let orders = bearing();
     let quiet = judged(&one_ball_differs(6.0, orders.cage, 0.0, 32), steady, &orders, 0.01);
