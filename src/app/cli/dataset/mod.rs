@@ -212,16 +212,23 @@ fn compute(
     let work = Work { done: &tell, stop: &stop.asked, cache: cache.as_deref() };
     let mut structures = Structures::default();
     stop.deaf.store(false, Ordering::SeqCst);
-    let written = missing.iter().try_for_each(|shard| match stop.asked.load(Ordering::SeqCst) {
-        true => Err(ComputeError::Interrupted { at_s: 0.0, end_s: 0.0 }),
-        false => plan.write_shard(&folder.path, *shard, &mut structures, work),
+    let mut kept = 0;
+    let written = missing.iter().try_for_each(|shard| {
+        if stop.asked.load(Ordering::SeqCst) {
+            return Err(ComputeError::Interrupted { at_s: 0.0, end_s: 0.0 });
+        }
+        plan.write_shard(&folder.path, *shard, &mut structures, work)?;
+        kept += plan.of_shard(*shard).len();
+        Ok(())
     });
     stop.deaf.store(true, Ordering::SeqCst);
     match written {
         Ok(()) => Ok(Pace { signals: count, wall_s: begun.elapsed().as_secs_f64() }),
         Err(ComputeError::Interrupted { .. }) => {
             let done = done.load(Ordering::Relaxed);
-            Err(interrupted(&format!("interrupted after {done} of {count} signals")))
+            Err(interrupted(&format!(
+                "interrupted after {done} of {count} signals, of which {kept} are in whole files"
+            )))
         }
         Err(error) => Err(error.into()),
     }

@@ -143,7 +143,9 @@ impl DatasetPlan {
                 let (signal, case) = &drawn[place];
                 let stage = keys[place].as_ref().and_then(|key| structures.0.get(key));
                 let found = self.one(signal, case, stage, work);
-                (work.done)();
+                if found.is_ok() {
+                    (work.done)();
+                }
                 found
             };
             let batch = on_threads(batch.len(), |place| one(first + place))?;
