@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from functools import cached_property
+from pathlib import Path
 from typing import TYPE_CHECKING, NamedTuple
 
 from . import _plummer
@@ -85,6 +86,9 @@ class Frf(Result):
         ax.set(xlabel="frequency (Hz)", ylabel="accelerance (1/kg)")
         ax.legend()
         return ax
+
+    def _write(self, folder: Path) -> None:
+        self._computed.write(folder)
 
     def __repr__(self) -> str:
         return f"<plummer.Frf: {len(self.paths)} paths, {len(self.frequencies_hz)} frequencies>"

@@ -202,7 +202,7 @@ class Mesh:
     @property
     def name(self) -> str:
         """What a case calls it: a name by its content."""
-        return f"mesh-{hashlib.sha256(self._mesh.content()).hexdigest()[:16]}.msh"
+        return f"mesh-in-memory-{hashlib.sha256(self._mesh.content()).hexdigest()[:16]}.msh"
 
     def __repr__(self) -> str:
         kinds = ", ".join(f"{count} {kind}" for kind, count in self.kinds.items())

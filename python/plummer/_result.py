@@ -56,7 +56,7 @@ class Result:
 
     def save(self, folder: str | os.PathLike[str], *, force: bool = False) -> Path:
         """Writes into a folder, and gives it: ``report.html`` with its tables and figures, the summary as ``COMMAND.json``, and the arrays
-        as the command names them, ``modes.npz``, ``superelement.npz`` or ``signals.npz``.
+        as the command names them, ``modes.npz``, ``superelement.npz``, ``signals.npz`` or ``frf.uff``.
 
         Args:
             folder: made where it is not there.

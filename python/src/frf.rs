@@ -48,6 +48,11 @@ impl Frf {
         arrays::table(py, values, [self.result.paths.len(), self.result.response.frequencies_hz().len()])
     }
 
+    /// Writes `frf.uff` into a folder, as the command does.
+    fn write(&self, py: Python<'_>, folder: PathBuf) -> PyResult<()> {
+        self.result.write_uff(&folder.join("frf.uff"), &self.case).map_err(|error| errors::of(py, error))
+    }
+
     fn summary<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
         page::summary(py, "frf", &self.case, &self.result)
     }

@@ -94,6 +94,8 @@ def test_python_and_program_say_the_same(command: str, name: str, program: Progr
         assert (folder / file).exists() == (saved / file).exists()
         if (folder / file).exists():
             same_arrays(saved / file, folder / file)
+    if (folder / "frf.uff").exists():
+        assert (saved / "frf.uff").read_bytes() == (folder / "frf.uff").read_bytes()
     for part in ("tables", "figures"):
         assert content(saved / part) == content(folder / part), part
 

@@ -4,11 +4,7 @@ use super::analyze::warn;
 use super::report::ReportFiles;
 use super::results::Job;
 use super::{CliError, Outcome, typed};
-use crate::app::case::{Case, SensorSpot};
 use crate::app::commands::frf::{FrfResult, TransferPath, compute_frf, frf_report};
-use crate::app::error::ComputeError;
-use crate::fe::reduction::frf::FrfQuantity;
-use crate::formats::{FrequencyResponse, ResponseKind, ResponsePoint, write_responses_uff};
 use crate::report::{counted, significant};
 
 /// Computes the transfer paths of a case and writes the report, its tables, `frf.uff` and, last, `frf.json`.
@@ -22,7 +18,7 @@ pub(super) fn frf(job: &Job<'_>) -> Result<Outcome, CliError> {
     let report = frf_report(case, &result, &typed())?;
     let files = ReportFiles::write(&job.folder, "frf", case, report, progress)?;
     let uff = job.folder.path.join("frf.uff");
-    write_responses_uff(&uff, &case.title, &responses(case, &result)?).map_err(ComputeError::from)?;
+    result.write_uff(&uff, case)?;
     let (path, json) = job.write_result(&files, &[], result.summary())?;
     progress.finish();
     warn(&result.doubts, job.options);
@@ -97,53 +93,4 @@ fn summary(result: &FrfResult) -> String {
         }
     }
     lines.join("\n")
-}
-
-/// A direction of the case, which may have any length; none where the case has none, as of a superelement's sensor.
-fn unit(direction: [f64; 3]) -> Option<[f64; 3]> {
-    let length = direction.iter().map(|part| part * part).sum::<f64>().sqrt();
-    (length > 0.0).then(|| direction.map(|part| part / length))
-}
-
-/// The receptances as other programs read them.
-fn responses(case: &Case, result: &FrfResult) -> Result<Vec<FrequencyResponse>, ComputeError> {
-    let point = |name: &str| {
-        let pushes = case.frf.iter().flat_map(|frf| &frf.from);
-        let push = pushes.filter(|push| push.name == name).map(|push| (&push.spot, push.direction));
-        let sensors = case.sensors.iter().filter(|sensor| sensor.name == name);
-        let given = push.chain(sensors.map(|sensor| (&sensor.spot, sensor.direction))).next();
-        let node = match given {
-            Some((SensorSpot::Node(tag), _)) => Some(*tag),
-            _ => None,
-        };
-        let direction = given.and_then(|(_, direction)| unit(direction));
-        ResponsePoint { name: name.to_owned(), node, direction }
-    };
-    let mut responses = Vec::with_capacity(result.paths.len());
-    for path in &result.paths {
-        let (sensor, load) = path.place;
-        let values = result.response.path(sensor, load, FrfQuantity::Receptance)?;
-        let response = FrequencyResponse {
-            name: format!("{} to {}", path.from, path.to),
-            frequency_hz: result.response.frequencies_hz().to_vec(),
-            value: values.iter().map(|h| [h.re, h.im]).collect(),
-            kind: ResponseKind::Receptance,
-            from: point(&path.from),
-            to: point(&path.to),
-        };
-        responses.push(response.told_apart());
-    }
-    Ok(responses)
-}
-
-#[cfg(test)]
-mod tests {
-    use super::unit;
-
-    #[test]
-    fn directions_have_length_one_or_are_not_known() {
-        assert_eq!(unit([0.0, -2.0, 0.0]), Some([0.0, -1.0, 0.0]));
-        assert_eq!(unit([3.0, 0.0, 4.0]), Some([0.6, 0.0, 0.8]));
-        assert_eq!(unit([0.0; 3]), None);
-    }
 }
