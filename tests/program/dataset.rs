@@ -319,8 +319,7 @@ fn a_flaw_is_on_a_ball_of_the_drawn_bearing() {
     let (code, said) = dataset(&folder, &[&["spec.toml", "--out", "out", "--count", "20"], short.as_slice()].concat());
     assert_eq!(code, 0, "{said}");
     let manifest = json(&folder.join("out/manifest.json"));
-    let balls =
-        manifest["signals"].as_array().unwrap().iter().map(|signal| signal["drawn"]["fault.ball.ball"].as_u64());
+    let balls = manifest["signals"].as_array().unwrap().iter().map(|signal| signal["faults"][0]["ball"].as_u64());
     assert_eq!(balls.collect::<BTreeSet<_>>(), BTreeSet::from([Some(0), Some(1), Some(2)]));
 }
 
