@@ -326,7 +326,8 @@ def analyze(
         ComputationError: no part could be judged in any window.
 
     Warns:
-        SignalWarning: samples that are clipped or stand still, a baseline that is doubtful.
+        SignalWarning: samples that are clipped or stand still, a spectrum that ends early, a speed that no line confirms or that was given
+            for another time, a baseline that is doubtful.
 
     >>> import numpy as np, plummer
     >>> time = np.arange(24000) / 12000
@@ -343,6 +344,7 @@ def analyze(
 
     def known(signal: ArrayLike | Signal, rate_hz: float | None, start_s: float | None, speed_hz: Speed | None, name: str) -> dict[str, Any]:
         what, own_unit = "" if name == channel else "baseline_", unit
+        rate_hz = None if rate_hz is None else _number(f"{what}rate_hz", rate_hz)
         if isinstance(signal, Signal):
             if rate_hz is not None and abs(rate_hz / signal.rate_hz - 1) > 0.01:
                 doubts.append(f"{what}rate_hz takes {rate_hz:g} Hz for what the signal says are {signal.rate_hz:g} Hz")
@@ -353,7 +355,7 @@ def analyze(
             raise InputError("rate_hz: found nothing, expected the sampling rate, Hz")
         speed = None if speed_hz is None else _speed(f"{what}speed_hz", speed_hz)
         start_s = 0.0 if start_s is None else _number("start_s", start_s)
-        return {"rate_hz": _number(f"{what}rate_hz", rate_hz), "start_s": start_s, "unit": own_unit, "channel": name, "speed_hz": speed}
+        return {"rate_hz": rate_hz, "start_s": start_s, "unit": own_unit, "channel": name, "speed_hz": speed}
 
     of = _bearing(bearing, (balls, ball_diameter, pitch_diameter), orders)
     case = bearing if isinstance(bearing, Case) else None

@@ -202,6 +202,8 @@ def test_results_are_read_only_and_no_other_is_replaced(tmp_path: Path) -> None:
 def test_a_rate_beside_that_of_a_run_is_told() -> None:
     case = plummer.Case.load("examples/tadina2011/outer-dent.toml", set={"transient.end": 0.5, "analysis": {}})
     signal = case.run()["P1"]
+    with pytest.raises(plummer.InputError, match="rate_hz: found '50000', expected a number"):
+        plummer.analyze(signal, rate_hz="50000", bearing=case, speed_hz=6.0)  # type: ignore[arg-type]
     with pytest.warns(plummer.SignalWarning, match="rate_hz takes 50000 Hz for what the signal says"):
         plummer.analyze(signal, rate_hz=50000, bearing=case, speed_hz=6.0)
 
