@@ -136,10 +136,11 @@ impl ReportFiles {
         let page = report_name(&folder.path, command);
         let date = report.date.clone().unwrap_or_else(today);
         let report = report.date(date).tables_in(TABLES, command);
-        let record = report.to_record().map_err(ComputeError::from)?;
+        let (record, html) = rayon::join(|| report.to_record(), || report.to_html());
+        let (record, html) = (record.map_err(ComputeError::from)?, html.map_err(ComputeError::from)?);
         remove_earlier(folder, &record_of(&page), command)?;
         folder.write(&record_of(&page), &record)?;
-        Self::draw(folder, &page, command, &report)
+        Self::put(folder, &page, command, &report, &html)
     }
 
     /// Draws a report: its page under this name, its tables and figures beside it.
@@ -148,6 +149,10 @@ impl ReportFiles {
     /// [`CliError`] when its contents do not fit together or a file cannot be written.
     pub(super) fn draw(folder: &OutputFolder, page: &str, command: &str, report: &Report) -> Result<Self, CliError> {
         let html = report.to_html().map_err(ComputeError::from)?;
+        Self::put(folder, page, command, report, &html)
+    }
+
+    fn put(folder: &OutputFolder, page: &str, command: &str, report: &Report, html: &str) -> Result<Self, CliError> {
         let figures = report.svg_files(command).map(|(name, plot)| Ok((format!("{FIGURES}/{name}"), plot.to_svg()?)));
         let figures = figures.collect::<Result<_, _>>().map_err(|error: ReportError| ComputeError::from(error))?;
         let tables = report.csv_files();

@@ -4,6 +4,10 @@ use super::{DenseMatrix, LinalgError, SymmetricMatrix, symmetric_eigen};
 use faer::linalg::matmul::matmul;
 use faer::prelude::*;
 use faer::{Accum, ColMut, MatMut, MatRef, Par};
+use rayon::prelude::*;
+
+/// Rows of tall matrices that are multiplied at once; threads share them.
+const ROWS: usize = 8192;
 
 /// Part of a new vector outside the basis, relative to it, below which it adds nothing but round-off.
 const NOTHING_NEW: f64 = 1e-10;
@@ -87,7 +91,7 @@ impl<'p> Basis<'p> {
             return 1.0;
         }
         let along = times(self.vectors().transpose(), product.rb());
-        matmul(w.rb_mut(), Accum::Add, self.vectors(), along.as_ref(), -1.0, Par::Seq);
+        tall_times(w.rb_mut(), Accum::Add, self.vectors(), along.as_ref(), -1.0);
         self.mass.times_into(w.rb(), product);
         let left = |column| 1.0 - along.col(column).squared_norm_l2();
         (0..w.ncols()).map(left).fold(1.0, f64::min).max(0.0).sqrt()
@@ -101,11 +105,37 @@ impl<'p> Basis<'p> {
     }
 }
 
-/// `A B`.
+/// `A B`. Sums over long columns are added up piece by piece, the same whatever the number of threads.
 pub(super) fn times(a: MatRef<'_, f64>, b: MatRef<'_, f64>) -> DenseMatrix {
     let mut product = DenseMatrix::zeros(a.nrows(), b.ncols());
-    matmul(product.as_mut(), Accum::Replace, a, b, 1.0, Par::Seq);
+    if a.ncols() <= ROWS {
+        tall_times(product.as_mut(), Accum::Replace, a, b, 1.0);
+        return product;
+    }
+    let piece = |first: usize| {
+        let rows = ROWS.min(a.ncols() - first);
+        let mut part = DenseMatrix::zeros(a.nrows(), b.ncols());
+        let (a, b) = (a.subcols(first, rows), b.subrows(first, rows));
+        matmul(part.as_mut(), Accum::Replace, a, b, 1.0, Par::Seq);
+        part
+    };
+    let parts: Vec<DenseMatrix> = (0..a.ncols()).into_par_iter().step_by(ROWS).map(piece).collect();
+    parts.iter().for_each(|part| product += part);
     product
+}
+
+/// `to = factor A B` or `to += factor A B` for a tall A, of which threads share the rows.
+pub(super) fn tall_times(to: MatMut<'_, f64>, add: Accum, a: MatRef<'_, f64>, b: MatRef<'_, f64>, factor: f64) {
+    let mut pieces = Vec::new();
+    let (mut to, mut a) = (to, a);
+    while to.nrows() > ROWS {
+        let (own, others) = to.split_at_row_mut(ROWS);
+        let (left, below) = a.split_at_row(ROWS);
+        pieces.push((own, left));
+        (to, a) = (others, below);
+    }
+    pieces.push((to, a));
+    pieces.into_par_iter().for_each(|(to, a)| matmul(to, add, a, b, factor, Par::Seq));
 }
 
 /// The first columns.
@@ -122,7 +152,7 @@ fn scale(column: ColMut<'_, f64>, factor: f64) {
 /// `sqrt(x^T M x)` of every column, from x and its product with M.
 pub(super) fn norms(x: MatRef<'_, f64>, product: MatRef<'_, f64>) -> Vec<f64> {
     let square = |column: usize| -> f64 { x.col(column).transpose() * product.col(column) };
-    (0..x.ncols()).map(|column| square(column).max(0.0).sqrt()).collect()
+    (0..x.ncols()).into_par_iter().map(|column| square(column).max(0.0).sqrt()).collect()
 }
 
 /// Makes the columns of `w` orthonormal through the eigenvectors of their Gram matrix and drops what depends on the
@@ -150,7 +180,7 @@ fn orthonormalise(
     }
     let mut rotate = |mut a: MatMut<'_, f64>| {
         let mut turned = columns(&mut spare, kept.len());
-        matmul(turned.rb_mut(), Accum::Replace, a.rb(), turn.as_ref(), 1.0, Par::Seq);
+        tall_times(turned.rb_mut(), Accum::Replace, a.rb(), turn.as_ref(), 1.0);
         columns(&mut a, kept.len()).copy_from(turned.rb());
     };
     rotate(w);

@@ -1,4 +1,4 @@
-//! Sparse Cholesky factorisation `P A P^T = L L^T` by faer (supernodal, nested dissection).
+//! Sparse Cholesky factorisation `P A P^T = L L^T` (multifrontal, nested dissection).
 
 use super::factor::LARGEST_CONTRACTION;
 use super::{

@@ -2,8 +2,8 @@
 
 use super::dense::pseudo_random;
 use super::followers::Correction;
+use super::memory::SMALL;
 use super::numeric::NumericFactor;
-use super::symbolic::SMALL;
 use super::{Kind, LinalgError, Symbolic, SymmetricMatrix};
 use faer::MatMut;
 use std::sync::Arc;
@@ -69,7 +69,7 @@ impl Factor {
     ) -> Result<Self, LinalgError> {
         match Self::quick(symbolic, a, kind, memory) {
             Err(LinalgError::NearlySingular { .. } | LinalgError::NotPositiveDefinite { .. })
-                if symbolic.len_val() > SMALL =>
+                if symbolic.entries() > SMALL =>
             {
                 Self::double(symbolic, a, kind)
             }
@@ -110,7 +110,7 @@ impl Factor {
         double: bool,
         memory: FactorMemory,
     ) -> Result<Self, LinalgError> {
-        let numbers = if double || symbolic.len_val() <= SMALL {
+        let numbers = if double || symbolic.entries() <= SMALL {
             Numbers::Double(NumericFactor::new(symbolic, a, kind, memory.double)?)
         } else {
             Numbers::Single(NumericFactor::new(symbolic, a, kind, memory.single)?)
@@ -127,7 +127,7 @@ impl Factor {
     /// small, or no longer sharp.
     pub(super) fn lightened(&self, a: &SymmetricMatrix) -> Option<Self> {
         match &self.numbers {
-            Numbers::Double(numbers) if self.symbolic.len_val() > SMALL => {
+            Numbers::Double(numbers) if self.symbolic.entries() > SMALL => {
                 let light = Self::measured(&self.symbolic, a, Numbers::Single(numbers.rounded()));
                 light.is_sharp().then_some(light)
             }
@@ -138,7 +138,7 @@ impl Factor {
     fn judged(self) -> Result<Self, LinalgError> {
         match self.contraction {
             contraction if contraction <= LARGEST_CONTRACTION => Ok(self),
-            contraction => Err(LinalgError::NearlySingular { order: self.symbolic.nrows(), contraction }),
+            contraction => Err(LinalgError::NearlySingular { order: self.symbolic.order(), contraction }),
         }
     }
 

@@ -5,13 +5,12 @@
 //! corrections `F^-1 (K x - lambda M x)` (Davidson, J. Comput. Phys. 17 (1975) 87-94), take them to the accuracy of K and M.
 //! Blocks load the factor once for all their vectors: eight together cost 1.5 to 2.9 times one alone.
 
-use super::basis::{Basis, norms, times};
+use super::basis::{Basis, norms, tall_times, times};
 use super::dense::pseudo_random;
 use super::{DenseMatrix, Factor, LinalgError, SymmetricMatrix, SymmetricSpectrum, symmetric_eigen};
 use crate::numerics::Told;
-use faer::linalg::matmul::matmul;
 use faer::prelude::*;
-use faer::{Accum, MatMut, Par};
+use faer::{Accum, MatMut};
 
 /// Vectors that the Krylov space grows by.
 const BLOCK: usize = 8;
@@ -300,7 +299,7 @@ impl<'p> Search<'p> {
         let width = chosen.len();
         let mut vectors = first(vectors, width);
         let (mut heavy, mut remainders) = (first(heavy, width), first(remainders, width));
-        matmul(vectors.rb_mut(), Accum::Replace, self.basis.vectors(), combinations.as_ref(), 1.0, Par::Seq);
+        tall_times(vectors.rb_mut(), Accum::Replace, self.basis.vectors(), combinations.as_ref(), 1.0);
         self.mass.times_into(vectors.rb(), heavy.rb_mut());
         self.stiffness.times_into(vectors.rb(), remainders.rb_mut());
         let mut residuals = Vec::with_capacity(chosen.len());

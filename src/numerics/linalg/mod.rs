@@ -3,10 +3,10 @@
 //! dense ones, and one solver for harmonic loads.
 //!
 //! The sparse currency is [`SparseMatrix`] (compressed columns, both triangles stored), the dense
-//! one is [`faer::Mat`]. What is dense runs sequentially inside a call; sparse solves and products share their columns among
-//! the threads of the pool.
+//! one is [`faer::Mat`]. Small dense problems run sequentially. A factorisation and its solves share the elimination tree
+//! and the large fronts among the threads of the pool, products their columns; results do not depend on the number of threads.
 //!
-//! **Limitations**: symmetric problems, complex ones for harmonic loads alone; a factor has at most 2^31 entries.
+//! **Limitations**: symmetric problems, complex ones for harmonic loads alone; a factor must fit into memory.
 
 #[allow(unsafe_code)]
 mod arpack;
@@ -19,18 +19,24 @@ mod eigen;
 mod error;
 mod factor;
 mod followers;
+mod front;
 mod harmonic;
 mod idle;
 mod lowest;
 mod lu;
+mod memory;
 #[allow(unsafe_code)]
 mod metis;
 mod numeric;
 mod ordering;
+mod precision;
+mod rest;
 mod sparse;
 mod substitution;
 mod symbolic;
 mod symmetric;
+mod trapezoid;
+mod tree;
 
 pub use cholesky::SparseCholesky;
 pub(crate) use dense::symmetric_eigen;
@@ -40,13 +46,13 @@ pub use error::LinalgError;
 pub(in crate::numerics::linalg) use error::gigabytes;
 pub(in crate::numerics::linalg) use factor::{Factor, FactorMemory};
 pub(crate) use followers::Followers;
+pub(in crate::numerics::linalg) use front::Kind;
 pub use harmonic::{
     ComplexSolution, HarmonicDamping, HarmonicError, HarmonicProblem, HarmonicSolution, HarmonicTimes, MotionDamping,
 };
 pub(crate) use harmonic::{complex_columns, complex_solve};
 pub(crate) use idle::{acting_generalised_eigen, acting_motions, congruent};
 pub(crate) use lu::SmallLu;
-pub(in crate::numerics::linalg) use numeric::Kind;
 pub(in crate::numerics::linalg) use ordering::Ordering;
 pub use sparse::{SparseMatrix, TripletBuilder, sparse_times_dense, submatrix, transpose_times_dense};
 pub(crate) use sparse::{congruence, placed, scattered_rows};

@@ -1,41 +1,26 @@
-//! Supernodal factorisation `A = L L^T` or `A = L B L^T` in single or double precision, by faer.
+//! Multifrontal factorisation `A = L L^T` or `A = L B L^T` in single or double precision.
 //!
 //! A matrix is scaled to a unit diagonal first: single precision then loses what is small beside its own row, not beside
 //! the stiffest part of the model.
 //!
-//! A factorisation runs on one thread: faer's own threads make it slower (1.1 s instead of 0.6 s on two cores for a solid of
-//! 60 000 degrees of freedom).
+//! Threads share the elimination tree and the large fronts at its top. Every sum has the same order whatever their number.
 
-use super::substitution::{Pivoting, Precision, Triangles, substitute};
-use super::{LinalgError, Symbolic, SymmetricMatrix};
-use faer::dyn_stack::{MemBuffer, MemStack};
-use faer::linalg::cholesky::llt::factor::LltError;
+use super::front::{Front, Kind, Target};
+use super::precision::Precision;
+use super::rest::{Pool, Rest};
+use super::substitution::{Pivoting, Triangles, substitute};
+use super::symbolic::Symbolic;
+use super::{LinalgError, SymmetricMatrix};
+use faer::MatMut;
 use faer::prelude::*;
-use faer::sparse::linalg::cholesky::supernodal::{
-    SupernodalLltRef, factorize_supernodal_numeric_intranode_lblt as lblt,
-    factorize_supernodal_numeric_intranode_lblt_scratch as lblt_scratch, factorize_supernodal_numeric_llt as llt,
-    factorize_supernodal_numeric_llt_scratch as llt_scratch,
-};
-use faer::sparse::{SparseColMatRef, SymbolicSparseColMatRef};
-use faer::{MatMut, Par};
-use rayon::prelude::*;
+use std::sync::Mutex;
 
-/// Which factorisation.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Kind {
-    /// `L L^T`; the matrix must be positive definite.
-    Definite,
-    /// `L B L^T` with pivots of order one and two within each supernode (Bunch and Kaufman, Math. Comp. 31 (1977)
-    /// 163-179).
-    Indefinite,
-}
-
-/// Block-diagonal part of `L B L^T` off the diagonal, and the order of the pivots within the supernodes.
+/// Block-diagonal part of `L B L^T` off the diagonal, and the order of the pivots within the panels.
 #[derive(Debug)]
 struct Pivots<T> {
     below_diagonal: Vec<T>,
+    /// Which column of its panel a pivot was.
     old: Vec<u32>,
-    new: Vec<u32>,
 }
 
 /// A numerical factor.
@@ -49,11 +34,14 @@ pub(super) struct NumericFactor<T> {
     pivots: Option<Pivots<T>>,
 }
 
+/// What a part of the tree leaves to the part above: `None` until it is done, or where it failed.
+type Slot<T> = Mutex<Option<Rest<T>>>;
+
 impl<T: Precision> NumericFactor<T> {
     /// Factorises a matrix with the analysed pattern; `memory`, which may be empty, is used again.
     ///
     /// # Errors
-    /// [`LinalgError::NotPositiveDefinite`] for [`Kind::Definite`], [`LinalgError::Factorisation`].
+    /// [`LinalgError::NotPositiveDefinite`] for [`Kind::Definite`], of the first such column; [`LinalgError::Factorisation`].
     pub(super) fn new(
         symbolic: &Symbolic,
         a: &SymmetricMatrix,
@@ -61,45 +49,40 @@ impl<T: Precision> NumericFactor<T> {
         memory: Vec<T>,
     ) -> Result<Self, LinalgError> {
         let order = a.order();
-        let failed = |reason| LinalgError::Factorisation { order, reason };
         let scale: Vec<f64> = a
             .stored_diagonal()
             .into_iter()
             .map(|entry| if entry == 0.0 { 1.0 } else { entry.abs().sqrt().recip() })
             .collect();
-        let scaled: Vec<T> = (0..order)
-            .flat_map(|column| {
-                let scale = &scale;
-                a.column(column).map(move |(row, value)| T::rounded(scale[row] * value * scale[column]))
-            })
-            .collect();
-        let pattern = SymbolicSparseColMatRef::new_checked(order, order, &a.offsets, None, &a.rows);
-        let lower = SparseColMatRef::new(pattern, &scaled);
         let mut values = memory;
-        values.truncate(symbolic.len_val());
-        values.try_reserve_exact(symbolic.len_val() - values.len()).map_err(|_| failed("out of memory"))?;
-        values.resize(symbolic.len_val(), T::rounded(0.0));
-        let scratch = match kind {
-            Kind::Definite => llt_scratch::<u32, T>(symbolic, Par::Seq, Default::default()),
-            Kind::Indefinite => lblt_scratch::<u32, T>(symbolic, Par::Seq, Default::default()),
+        if values.len() != symbolic.entries() {
+            let failed = |_| LinalgError::Factorisation { order, reason: "out of memory" };
+            drop(values);
+            // pages that come zeroed from the system are filled by the threads
+            Vec::<T>::new().try_reserve_exact(symbolic.entries()).map_err(failed)?;
+            values = vec![T::default(); symbolic.entries()];
+        }
+        let pivoted = if kind == Kind::Indefinite { order } else { 0 };
+        let mut pivots = Pivots { below_diagonal: vec![T::default(); pivoted], old: vec![0; pivoted] };
+        let elimination = Elimination {
+            symbolic,
+            a,
+            kind,
+            scale: &scale,
+            pool: Pool::new(),
+            maps: Mutex::new(Vec::new()),
+            slots: (0..symbolic.tree.len()).map(|_| Mutex::new(None)).collect(),
+            failure: Mutex::new(None),
         };
-        let mut buffer = MemBuffer::try_new(scratch).map_err(|_| failed("out of memory"))?;
-        let stack = MemStack::new(&mut buffer);
-        let pivots = match kind {
-            Kind::Definite => {
-                let refused =
-                    |LltError::NonPositivePivot { index: pivot }| LinalgError::NotPositiveDefinite { order, pivot };
-                llt(&mut values, lower, Default::default(), symbolic, Par::Seq, stack, Default::default())
-                    .map_err(refused)?;
-                None
-            }
-            Kind::Indefinite => {
-                let (mut below, mut old, mut new) = (vec![T::rounded(0.0); order], vec![0; order], vec![0; order]);
-                lblt(&mut values, &mut below, &mut old, &mut new, lower, symbolic, Par::Seq, stack, Default::default());
-                Some(Pivots { below_diagonal: below, old, new })
-            }
-        };
-        Ok(Self { values, scale, pivots })
+        let targets: Vec<Mutex<Target<'_, T>>> =
+            elimination.targets(&mut values, &mut pivots).into_iter().map(Mutex::new).collect();
+        symbolic.tree.upwards(|part| elimination.eliminate(part, &mut lock(&targets[part])));
+        drop(targets);
+        let failure = lock(&elimination.failure).take();
+        match failure {
+            Some(error) => Err(error),
+            None => Ok(Self { values, pivots: (kind == Kind::Indefinite).then_some(pivots), scale }),
+        }
     }
 
     /// The same with every entry rounded to another precision.
@@ -108,29 +91,15 @@ impl<T: Precision> NumericFactor<T> {
         NumericFactor {
             values: round(&self.values),
             scale: self.scale.clone(),
-            pivots: self.pivots.as_ref().map(|pivots| Pivots {
-                below_diagonal: round(&pivots.below_diagonal),
-                old: pivots.old.clone(),
-                new: pivots.new.clone(),
-            }),
+            pivots: self
+                .pivots
+                .as_ref()
+                .map(|pivots| Pivots { below_diagonal: round(&pivots.below_diagonal), old: pivots.old.clone() }),
         }
     }
 
-    /// `A^-1 B` in place for `B` [n x k]. Threads share the columns.
+    /// `A^-1 B` in place for `B` [n x k].
     pub(super) fn solve(&self, symbolic: &Symbolic, b: MatMut<'_, f64>) {
-        let width = b.ncols().div_ceil(rayon::current_num_threads()).max(1);
-        b.par_col_chunks_mut(width).for_each(|columns| self.solve_columns(symbolic, columns));
-    }
-
-    /// Where a row of the factor is in the matrix.
-    fn place(&self, row: usize) -> usize {
-        match &self.pivots {
-            None => row,
-            Some(pivots) => pivots.old[row] as usize,
-        }
-    }
-
-    fn solve_columns(&self, symbolic: &Symbolic, b: MatMut<'_, f64>) {
         // more lanes than columns are wasted, fewer load every entry more often
         match b.ncols() {
             ..=4 => self.solve_blocks::<4>(symbolic, b),
@@ -143,29 +112,25 @@ impl<T: Precision> NumericFactor<T> {
     fn solve_blocks<const L: usize>(&self, symbolic: &Symbolic, mut b: MatMut<'_, f64>) {
         let order = self.scale.len();
         let mut x = vec![[T::default(); L]; order * b.ncols().div_ceil(L)];
-        for (block, x) in x.chunks_exact_mut(order).enumerate() {
+        for (block, x) in x.chunks_exact_mut(order.max(1)).enumerate() {
             let width = L.min(b.ncols() - L * block);
-            let columns = b.rb().subcols(L * block, width);
-            for (row, lanes) in x.iter_mut().enumerate() {
-                let place = self.place(row);
-                let entries = columns.row(place).iter();
-                for (lane, entry) in lanes.iter_mut().zip(entries) {
-                    *lane = T::rounded(self.scale[place] * entry);
+            for lane in 0..width {
+                let column = b.rb().col(L * block + lane).iter();
+                for ((row, entry), scale) in x.iter_mut().zip(column).zip(&self.scale) {
+                    row[lane] = T::rounded(scale * entry);
                 }
             }
         }
         let pivoting =
-            self.pivots.as_ref().map(|pivots| Pivoting { below_diagonal: &pivots.below_diagonal, places: &pivots.new });
-        let triangles = Triangles { supernodes: symbolic, values: &self.values, pivoting };
+            self.pivots.as_ref().map(|pivots| Pivoting { below_diagonal: &pivots.below_diagonal, old: &pivots.old });
+        let triangles = Triangles { symbolic, values: &self.values, pivoting };
         substitute(&triangles, &mut x);
-        for (block, x) in x.chunks_exact(order).enumerate() {
+        for (block, x) in x.chunks_exact(order.max(1)).enumerate() {
             let width = L.min(b.ncols() - L * block);
-            let mut columns = b.rb_mut().subcols_mut(L * block, width);
-            for (row, lanes) in x.iter().enumerate() {
-                let place = self.place(row);
-                let entries = columns.rb_mut().row_mut(place).iter_mut();
-                for (lane, entry) in lanes.iter().zip(entries) {
-                    *entry = self.scale[place] * lane.exact();
+            for lane in 0..width {
+                let column = b.rb_mut().col_mut(L * block + lane).iter_mut();
+                for ((row, entry), scale) in x.iter().zip(column).zip(&self.scale) {
+                    *entry = scale * row[lane].exact();
                 }
             }
         }
@@ -176,26 +141,120 @@ impl<T: Precision> NumericFactor<T> {
         let Some(pivots) = &self.pivots else {
             return 0;
         };
-        let factor = SupernodalLltRef::new(symbolic, &self.values);
         let mut negative = 0;
-        for index in 0..symbolic.n_supernodes() {
-            let supernode = factor.supernode(index);
-            let (block, start) = (supernode.val(), supernode.start());
-            let mut column = 0;
-            while column < block.ncols() {
-                let diagonal = block[(column, column)].exact();
-                let below = pivots.below_diagonal[start + column].exact();
-                if below == 0.0 || column + 1 == block.ncols() {
-                    negative += usize::from(diagonal < 0.0);
-                    column += 1;
-                } else {
-                    let next = block[(column + 1, column + 1)].exact();
-                    let determinant = diagonal * next - below * below;
-                    negative += if determinant < 0.0 { 1 } else { 2 * usize::from(diagonal < 0.0) };
-                    column += 2;
-                }
+        for index in 0..symbolic.supernodes() {
+            let supernode = symbolic.supernode(index);
+            let values = &self.values[symbolic.values(&(index..index + 1))];
+            let layout = supernode.layout();
+            for block in 0..layout.blocks() {
+                let (first, columns) = layout.block(block);
+                let (rows, entries) = (layout.rows - first, &values[layout.begin(block)..]);
+                let below = &pivots.below_diagonal[supernode.start + first..][..columns];
+                negative += negative_pivots(|column| entries[column * rows + column].exact(), below);
             }
         }
         negative
     }
 }
+
+/// Negative eigenvalues of one panel's B.
+fn negative_pivots<T: Precision>(diagonal: impl Fn(usize) -> f64, below: &[T]) -> usize {
+    let (mut negative, mut column) = (0, 0);
+    while column < below.len() {
+        let (own, beside) = (diagonal(column), below[column].exact());
+        if beside == 0.0 || column + 1 == below.len() {
+            negative += usize::from(own < 0.0);
+            column += 1;
+        } else {
+            let determinant = own * diagonal(column + 1) - beside * beside;
+            negative += if determinant < 0.0 { 1 } else { 2 * usize::from(own < 0.0) };
+            column += 2;
+        }
+    }
+    negative
+}
+
+/// A factorisation under way.
+struct Elimination<'a, T> {
+    symbolic: &'a Symbolic,
+    a: &'a SymmetricMatrix,
+    kind: Kind,
+    scale: &'a [f64],
+    pool: Pool<T>,
+    /// Where rows of the matrix are in a front: memory of the threads.
+    maps: Mutex<Vec<Vec<u32>>>,
+    slots: Vec<Slot<T>>,
+    failure: Mutex<Option<LinalgError>>,
+}
+
+impl<'a, T: Precision> Elimination<'a, T> {
+    /// What each part of the tree writes.
+    fn targets<'v>(&self, values: &'v mut [T], pivots: &'v mut Pivots<T>) -> Vec<Target<'v, T>> {
+        let (mut values, mut below, mut old) = (values, &mut pivots.below_diagonal[..], &mut pivots.old[..]);
+        let of_part = |part: usize| {
+            let supernodes = self.symbolic.tree.supernodes(part);
+            let columns = if old.is_empty() { 0 } else { self.symbolic.columns(&supernodes).len() };
+            Target {
+                values: values.split_off_mut(..self.symbolic.values(&supernodes).len()).unwrap_or_default(),
+                below_diagonal: below.split_off_mut(..columns).unwrap_or_default(),
+                old: old.split_off_mut(..columns).unwrap_or_default(),
+            }
+        };
+        (0..self.symbolic.tree.len()).map(of_part).collect()
+    }
+
+    /// Eliminates the supernodes of one part of the tree.
+    fn eliminate(&self, part: usize, target: &mut Target<'_, T>) {
+        let supernodes = self.symbolic.tree.supernodes(part);
+        let mut map = lock(&self.maps).pop().unwrap_or_else(|| vec![0; self.symbolic.order()]);
+        let mut rests: Vec<Option<Rest<T>>> = supernodes.clone().map(|_| None).collect();
+        let (mut values, mut below, mut old) = (&mut *target.values, &mut *target.below_diagonal, &mut *target.old);
+        for index in supernodes.clone() {
+            let supernode = self.symbolic.supernode(index);
+            let columns = if self.kind == Kind::Indefinite { supernode.columns } else { 0 };
+            let own = Target {
+                values: values.split_off_mut(..supernode.layout().len()).unwrap_or_default(),
+                below_diagonal: below.split_off_mut(..columns).unwrap_or_default(),
+                old: old.split_off_mut(..columns).unwrap_or_default(),
+            };
+            let left_by = |child: usize| {
+                let relative = self.symbolic.supernode(child).relative;
+                let rest = match child.checked_sub(supernodes.start) {
+                    Some(place) => rests[place].take(),
+                    None => lock(&self.slots[self.symbolic.tree.part_of(child)]).take(),
+                };
+                rest.map(|rest| (relative, rest))
+            };
+            // without what a failed child would have left there is nothing to do
+            let Some(children) = self.symbolic.children(index).map(left_by).collect() else { continue };
+            let front = Front { supernode, matrix: self.a, scale: self.scale, kind: self.kind, children };
+            match front.eliminate(own, &self.pool, &mut map) {
+                Ok(rest) => rests[index - supernodes.start] = Some(rest),
+                Err(error) => self.failed(error),
+            }
+            front.children.into_iter().for_each(|(_, rest)| self.pool.give_back(rest));
+        }
+        *lock(&self.slots[part]) = rests.pop().flatten();
+        lock(&self.maps).push(map);
+    }
+
+    /// Keeps the error of the lowest column, whichever came first.
+    fn failed(&self, error: LinalgError) {
+        let column = |error: &LinalgError| match error {
+            LinalgError::NotPositiveDefinite { pivot, .. } => *pivot,
+            _ => 0,
+        };
+        let mut failure = lock(&self.failure);
+        if failure.as_ref().is_none_or(|known| column(&error) < column(known)) {
+            *failure = Some(error);
+        }
+    }
+}
+
+fn lock<V>(mutex: &Mutex<V>) -> std::sync::MutexGuard<'_, V> {
+    mutex.lock().unwrap_or_else(|poisoned| poisoned.into_inner())
+}
+
+#[cfg(test)]
+#[path = "numeric_tests.rs"]
+mod tests;

@@ -25,6 +25,15 @@ pub(super) const ABSENT: u32 = u32::MAX;
 const NONE: usize = usize::MAX;
 
 impl Ordering {
+    /// The unknowns in this order.
+    #[cfg(test)]
+    pub(super) fn as_given(order: &[usize]) -> Self {
+        let old: Vec<u32> = order.iter().map(|&unknown| unknown as u32).collect();
+        let mut new = vec![ABSENT; old.len()];
+        old.iter().zip(0..).for_each(|(&unknown, place)| new[unknown as usize] = place);
+        Self { kept: (0..old.len() as u32).collect(), old, new }
+    }
+
     /// Order of a symmetric matrix [n x n], both triangles stored.
     ///
     /// # Errors

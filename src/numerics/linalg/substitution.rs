@@ -1,19 +1,20 @@
 //! Forward and backward substitution with a supernodal factor for blocks of right-hand sides.
 //!
 //! Right-hand sides stand side by side in lanes: an entry of the factor is loaded once for all of them, and what a
-//! supernode needs of a row is one piece of memory. Columns of a supernode are taken a few at once and used for all blocks
+//! supernode needs of a row is one piece of memory. What a supernode adds to the rows below goes to its parent, and what those
+//! rows become comes back from it: threads share the tree (Liu, SIAM Rev. 34 (1992) 82-109). Columns of a supernode are taken a few at once and used for all blocks
 //! while they are in the cache.
 //!
 //! What a right-hand side's solution is does not depend on the others beside it, nor on how many they are.
 //!
 //! A supernode whose own right-hand sides are zero is passed over on the way forward: loads on a few nodes reach those
 //! nodes and the separators above them alone (Gilbert, SIAM J. Matrix Anal. Appl. 15 (1994) 62-79).
-//!
-//! The two precisions in which a factor is computed and kept.
 
-use faer::sparse::linalg::cholesky::supernodal::{SupernodalLltRef, SymbolicSupernodalCholesky};
+use super::precision::Precision;
+use super::symbolic::Symbolic;
 use multiversion::multiversion;
 use multiversion::target::target_cfg_f;
+use std::sync::Mutex;
 
 /// Rows that are handled at once on the way forward.
 const TILE: usize = 4;
@@ -25,63 +26,101 @@ pub(super) type Row<T, const L: usize> = [T; L];
 pub(super) struct Pivoting<'a, T> {
     /// Its entries below the diagonal; a pivot of order two has one that is not zero.
     pub below_diagonal: &'a [T],
-    /// Where the rows of the matrix are among the pivots.
-    pub places: &'a [u32],
+    /// Which column of its panel a pivot was.
+    pub old: &'a [u32],
 }
 
 /// A factor `L L^T` or `L B L^T`.
 pub(super) struct Triangles<'a, T> {
     /// Where the entries of L are.
-    pub supernodes: &'a SymbolicSupernodalCholesky<u32>,
+    pub symbolic: &'a Symbolic,
     /// The entries of L; those of B stand on its diagonal.
     pub values: &'a [T],
     /// `None` for `L L^T`.
     pub pivoting: Option<Pivoting<'a, T>>,
 }
 
+/// Rows of right-hand sides on the way through the tree, for some of the blocks: those of each block one behind the other.
+struct Message<T, const L: usize> {
+    blocks: Vec<usize>,
+    rows: Vec<Row<T, L>>,
+}
+
+/// What is on the way to the supernodes of other parts of the tree.
+type Slots<T, const L: usize> = Vec<Mutex<Option<Message<T, L>>>>;
+
+/// The rows of the supernodes of one part, of every block.
+type Own<'x, T, const L: usize> = Vec<&'x mut [Row<T, L>]>;
+
 /// `(L B L^T)^-1 X` in place for blocks of right-hand sides one after the other [blocks * n].
-#[multiversion(targets("x86_64+avx2+fma", "aarch64+neon"), dispatcher = "direct")]
 pub(super) fn substitute<T: Precision, const L: usize>(triangles: &Triangles<'_, T>, x: &mut [Row<T, L>]) {
+    let tree = &triangles.symbolic.tree;
+    let mut own: Vec<Own<'_, T, L>> = (0..tree.len()).map(|_| Vec::new()).collect();
+    for mut block in x.chunks_exact_mut(triangles.symbolic.order().max(1)) {
+        for (part, own) in own.iter_mut().enumerate() {
+            let columns = triangles.symbolic.columns(&tree.supernodes(part)).len();
+            own.push(block.split_off_mut(..columns).unwrap_or_default());
+        }
+    }
+    let own: Vec<Mutex<Own<'_, T, L>>> = own.into_iter().map(Mutex::new).collect();
+    let slots = || -> Slots<T, L> { (0..tree.len()).map(|_| Mutex::new(None)).collect() };
+    let above = slots();
+    tree.upwards(|part| forward(triangles, part, &mut lock(&own[part]), &above));
+    let below: Slots<T, L> = (0..triangles.symbolic.supernodes()).map(|_| Mutex::new(None)).collect();
+    tree.downwards(|part| backward(triangles, part, &mut lock(&own[part]), &below));
+}
+
+#[multiversion(targets("x86_64+avx512f+avx512vl+avx2+fma", "x86_64+avx2+fma", "aarch64+neon"), dispatcher = "direct")]
+fn forward<T: Precision, const L: usize>(
+    triangles: &Triangles<'_, T>,
+    part: usize,
+    own: &mut Own<'_, T, L>,
+    slots: &Slots<T, L>,
+) {
     // without the instruction a fused product is a call of the library
     if target_cfg_f!(any(target_feature = "fma", target_feature = "neon")) {
-        triangles.forward::<L, true>(x);
-        triangles.backward::<L, true>(x);
+        triangles.forward::<L, true>(part, own, slots);
     } else {
-        triangles.forward::<L, false>(x);
-        triangles.backward::<L, false>(x);
+        triangles.forward::<L, false>(part, own, slots);
     }
 }
 
-/// Columns of L with one pattern: a square on the diagonal, and rows below it.
+#[multiversion(targets("x86_64+avx512f+avx512vl+avx2+fma", "x86_64+avx2+fma", "aarch64+neon"), dispatcher = "direct")]
+fn backward<T: Precision, const L: usize>(
+    triangles: &Triangles<'_, T>,
+    part: usize,
+    own: &mut Own<'_, T, L>,
+    slots: &Slots<T, L>,
+) {
+    if target_cfg_f!(any(target_feature = "fma", target_feature = "neon")) {
+        triangles.backward::<L, true>(part, own, slots);
+    } else {
+        triangles.backward::<L, false>(part, own, slots);
+    }
+}
+
+/// Columns of L that were factorised at once: a square on the diagonal, and rows below it.
 #[derive(Clone, Copy)]
-struct Supernode<'a, T> {
+struct Panel<'a, T> {
     values: &'a [T],
-    start: usize,
+    rows: usize,
     columns: usize,
-    below: &'a [u32],
+    /// B below its diagonal, and which column a pivot was; `None` for `L L^T`.
+    pivots: Option<(&'a [T], &'a [u32])>,
 }
 
-impl<'a, T: Precision> Supernode<'a, T> {
-    #[inline(always)]
-    fn rows(&self) -> usize {
-        self.columns + self.below.len()
-    }
-
+impl<'a, T: Precision> Panel<'a, T> {
     /// `J` columns from row `from` on.
     #[inline(always)]
     fn part<const J: usize>(&self, first: usize, from: usize) -> [&'a [T]; J] {
-        let rows = self.rows();
+        let rows = self.rows;
         std::array::from_fn(|j| &self.values[(first + j) * rows..][from..rows])
     }
 
     /// Eliminates `J` columns from the rows that follow.
     #[inline(always)]
-    fn forward<const L: usize, const J: usize, const FUSED: bool>(
-        &self,
-        first: usize,
-        unit: bool,
-        work: &mut [Row<T, L>],
-    ) {
+    fn forward<const L: usize, const J: usize, const FUSED: bool>(&self, first: usize, work: &mut [Row<T, L>]) {
+        let unit = self.pivots.is_some();
         let (own, rest) = work[first..].split_at_mut(J);
         let square = self.part::<J>(first, first);
         let mut minus = [[T::default(); L]; J];
@@ -122,9 +161,9 @@ impl<'a, T: Precision> Supernode<'a, T> {
         &self,
         first: usize,
         group: usize,
-        unit: bool,
         work: &mut [Row<T, L>],
     ) {
+        let unit = self.pivots.is_some();
         let (own, below) = work[first..].split_at_mut(J);
         let (near, rest) = below.split_at(group - J);
         let entries = self.part::<J>(first, first + group);
@@ -151,10 +190,30 @@ impl<'a, T: Precision> Supernode<'a, T> {
         }
     }
 
-    /// `B^-1 X` in place for the pivots of this supernode.
+    /// Puts the panel's rows into the order of the pivots.
+    #[inline(always)]
+    fn in_order_of_pivots<const L: usize>(&self, work: &mut [Row<T, L>], spare: &mut Vec<Row<T, L>>) {
+        if let Some((_, old)) = self.pivots {
+            spare.clear();
+            spare.extend_from_slice(&work[..self.columns]);
+            work.iter_mut().zip(old).for_each(|(row, &old)| *row = spare[old as usize]);
+        }
+    }
+
+    /// Puts the panel's rows back into the order of the matrix.
+    #[inline(always)]
+    fn in_order_of_rows<const L: usize>(&self, work: &mut [Row<T, L>], spare: &mut Vec<Row<T, L>>) {
+        if let Some((_, old)) = self.pivots {
+            spare.clear();
+            spare.extend_from_slice(&work[..self.columns]);
+            spare.iter().zip(old).for_each(|(row, &old)| work[old as usize] = *row);
+        }
+    }
+
+    /// `B^-1 X` in place for the pivots of this panel.
     #[inline(always)]
     fn divide<const L: usize>(&self, below_diagonal: &[T], x: &mut [Row<T, L>]) {
-        let diagonal = |column: usize| self.values[column * self.rows() + column];
+        let diagonal = |column: usize| self.values[column * self.rows + column];
         let one = T::rounded(1.0);
         let mut column = 0;
         while column < self.columns {
@@ -180,127 +239,172 @@ impl<'a, T: Precision> Supernode<'a, T> {
 }
 
 impl<'a, T: Precision> Triangles<'a, T> {
+    /// The panels of a supernode, and their first columns.
     #[inline(always)]
-    fn supernode(&self, index: usize) -> Supernode<'a, T> {
-        let supernode = SupernodalLltRef::new(self.supernodes, self.values).supernode(index);
-        let begins = self.supernodes.col_ptr_for_val();
-        Supernode {
-            values: &self.values[begins[index] as usize..begins[index + 1] as usize],
-            start: supernode.start(),
-            columns: supernode.val().ncols(),
-            below: supernode.pattern(),
-        }
+    fn panels(&self, index: usize) -> impl DoubleEndedIterator<Item = (usize, Panel<'a, T>)> {
+        let (supernode, range) = (self.symbolic.supernode(index), self.symbolic.values(&(index..index + 1)));
+        let (layout, start, values) = (supernode.layout(), supernode.start, &self.values[range]);
+        let (below, old) =
+            self.pivoting.as_ref().map_or((&[][..], &[][..]), |pivoting| (pivoting.below_diagonal, pivoting.old));
+        let pivoted = self.pivoting.is_some();
+        (0..layout.blocks()).map(move |block| {
+            let (first, columns) = layout.block(block);
+            let (rows, begin) = (layout.rows - first, layout.begin(block));
+            let own = start + first..start + first + columns;
+            let pivots = pivoted.then(|| (&below[own.clone()], &old[own]));
+            (first, Panel { values: &values[begin..begin + rows * columns], rows, columns, pivots })
+        })
     }
 
+    /// Eliminates the supernodes of a part from the right-hand sides.
     #[inline(always)]
-    fn place(&self, row: u32) -> usize {
-        match &self.pivoting {
-            None => row as usize,
-            Some(pivoting) => pivoting.places[row as usize] as usize,
-        }
-    }
-
-    /// Copies the rows that a supernode touches.
-    #[inline(always)]
-    fn gather<const L: usize>(&self, supernode: &Supernode<'_, T>, x: &[Row<T, L>], work: &mut [Row<T, L>]) {
-        let (top, below) = work.split_at_mut(supernode.columns);
-        top.copy_from_slice(&x[supernode.start..supernode.start + supernode.columns]);
-        for (to, &row) in below.iter_mut().zip(supernode.below) {
-            *to = x[self.place(row)];
-        }
-    }
-
-    /// Memory for the rows that any supernode touches in so many blocks.
-    fn workspace<const L: usize>(&self, blocks: usize) -> Vec<Row<T, L>> {
-        let rows = |index| self.supernode(index).rows();
-        let most = (0..self.supernodes.n_supernodes()).map(rows).max();
-        vec![[T::default(); L]; blocks * most.unwrap_or(0)]
-    }
-
-    #[inline(always)]
-    fn forward<const L: usize, const FUSED: bool>(&self, x: &mut [Row<T, L>]) {
-        let (order, unit) = (self.supernodes.nrows(), self.pivoting.is_some());
-        let blocks = x.len() / order;
-        let mut workspace = self.workspace(blocks);
-        let mut reached = Vec::with_capacity(blocks);
-        for index in 0..self.supernodes.n_supernodes() {
-            let supernode = self.supernode(index);
-            let own = supernode.start..supernode.start + supernode.columns;
-            let rows = supernode.rows();
-            reached.clear();
-            for (block, x) in x.chunks_exact(order).enumerate() {
-                if x[own.clone()].iter().any(|row| *row != [T::default(); L]) {
-                    self.gather(&supernode, x, &mut workspace[reached.len() * rows..][..rows]);
-                    reached.push(block);
-                }
-            }
-            let work = &mut workspace[..reached.len() * rows];
-            let mut first = 0;
-            while first < supernode.columns {
-                let taken = step(supernode.columns - first);
-                for work in work.chunks_exact_mut(rows) {
-                    match taken {
-                        8 => supernode.forward::<L, 8, FUSED>(first, unit, work),
-                        4 => supernode.forward::<L, 4, FUSED>(first, unit, work),
-                        2 => supernode.forward::<L, 2, FUSED>(first, unit, work),
-                        _ => supernode.forward::<L, 1, FUSED>(first, unit, work),
-                    }
-                }
-                first += taken;
-            }
-            for (work, &block) in work.chunks_exact(rows).zip(&reached) {
-                let x = &mut x[block * order..(block + 1) * order];
-                let (top, below) = work.split_at(supernode.columns);
-                x[own.clone()].copy_from_slice(top);
-                for (&row, value) in supernode.below.iter().zip(below) {
-                    x[self.place(row)] = *value;
-                }
-            }
-        }
-    }
-
-    #[inline(always)]
-    fn backward<const L: usize, const FUSED: bool>(&self, x: &mut [Row<T, L>]) {
-        let (order, unit) = (self.supernodes.nrows(), self.pivoting.is_some());
-        let blocks = x.len() / order;
-        let mut workspace = self.workspace(blocks);
-        for index in (0..self.supernodes.n_supernodes()).rev() {
-            let supernode = self.supernode(index);
-            let own = supernode.start..supernode.start + supernode.columns;
-            let rows = supernode.rows();
-            let work = &mut workspace[..blocks * rows];
-            for (x, work) in x.chunks_exact_mut(order).zip(work.chunks_exact_mut(rows)) {
-                if let Some(pivoting) = &self.pivoting {
-                    let below = &pivoting.below_diagonal[own.clone()];
-                    supernode.divide(below, &mut x[own.clone()]);
-                }
-                self.gather(&supernode, x, work);
-            }
-            let mut left = supernode.columns;
-            while left > 0 {
-                let taken = step(left);
-                left -= taken;
-                for work in work.chunks_exact_mut(rows) {
-                    match taken {
-                        8 if L <= T::REGISTER => {
-                            supernode.backward::<L, 8, FUSED>(left, 8, unit, work);
-                        }
-                        // half of them have their sums in registers
-                        8 => {
-                            supernode.backward::<L, 4, FUSED>(left + 4, 4, unit, work);
-                            supernode.backward::<L, 4, FUSED>(left, 8, unit, work);
-                        }
-                        4 => supernode.backward::<L, 4, FUSED>(left, 4, unit, work),
-                        2 => supernode.backward::<L, 2, FUSED>(left, 2, unit, work),
-                        _ => supernode.backward::<L, 1, FUSED>(left, 1, unit, work),
+    fn forward<const L: usize, const FUSED: bool>(&self, part: usize, own: &mut Own<'_, T, L>, slots: &Slots<T, L>) {
+        let nothing = [T::default(); L];
+        let supernodes = self.symbolic.tree.supernodes(part);
+        let start = self.symbolic.columns(&supernodes).start;
+        let mut messages: Vec<Option<Message<T, L>>> = supernodes.clone().map(|_| None).collect();
+        let mut spare: Vec<Vec<Row<T, L>>> = Vec::new();
+        let mut work: Vec<Row<T, L>> = Vec::new();
+        let mut pivoted = Vec::new();
+        for index in supernodes.clone() {
+            let supernode = self.symbolic.supernode(index);
+            let (rows, columns) = (supernode.rows(), supernode.columns);
+            let place = supernode.start - start..supernode.start - start + columns;
+            let children = self.symbolic.children(index);
+            let children = children.filter_map(|child| {
+                let message = match child.checked_sub(supernodes.start) {
+                    Some(place) => messages[place].take(),
+                    None => lock(&slots[self.symbolic.tree.part_of(child)]).take(),
+                };
+                Some((self.symbolic.supernode(child).relative, message?))
+            });
+            let children: Vec<(&[u32], Message<T, L>)> = children.collect();
+            let reaches = |block: &usize| {
+                let sent = children.iter().any(|(_, message)| message.blocks.contains(block));
+                sent || own[*block][place.clone()].iter().any(|row| *row != nothing)
+            };
+            let blocks: Vec<usize> = (0..own.len()).filter(reaches).collect();
+            work.clear();
+            for &block in &blocks {
+                let from = work.len();
+                work.extend_from_slice(&own[block][place.clone()]);
+                work.resize(from + rows, nothing);
+                for (relative, message) in &children {
+                    let Some(sent) = message.blocks.iter().position(|&other| other == block) else { continue };
+                    let sent = message.rows[sent * relative.len()..].iter();
+                    for (row, &place) in sent.zip(*relative) {
+                        let to = &mut work[from + place as usize];
+                        *to = std::array::from_fn(|lane| to[lane] + row[lane]);
                     }
                 }
             }
-            for (x, work) in x.chunks_exact_mut(order).zip(work.chunks_exact(rows)) {
-                x[own.clone()].copy_from_slice(&work[..supernode.columns]);
+            spare.extend(children.into_iter().map(|(_, message)| message.rows));
+            if blocks.is_empty() {
+                continue;
+            }
+            for (from, panel) in self.panels(index) {
+                for work in work.chunks_exact_mut(rows) {
+                    panel.in_order_of_pivots(&mut work[from..], &mut pivoted);
+                }
+                let mut first = 0;
+                while first < panel.columns {
+                    let taken = step(panel.columns - first);
+                    for work in work.chunks_exact_mut(rows) {
+                        let work = &mut work[from..];
+                        match taken {
+                            8 => panel.forward::<L, 8, FUSED>(first, work),
+                            4 => panel.forward::<L, 4, FUSED>(first, work),
+                            2 => panel.forward::<L, 2, FUSED>(first, work),
+                            _ => panel.forward::<L, 1, FUSED>(first, work),
+                        }
+                    }
+                    first += taken;
+                }
+            }
+            let mut sent = spare.pop().unwrap_or_default();
+            sent.clear();
+            for (work, &block) in work.chunks_exact(rows).zip(&blocks) {
+                own[block][place.clone()].copy_from_slice(&work[..columns]);
+                sent.extend_from_slice(&work[columns..]);
+            }
+            if rows > columns {
+                messages[index - supernodes.start] = Some(Message { blocks, rows: sent });
+            }
+        }
+        *lock(&slots[part]) = messages.pop().flatten();
+    }
+
+    /// Solves for the rows of a part, from what those above have told.
+    #[inline(always)]
+    fn backward<const L: usize, const FUSED: bool>(&self, part: usize, own: &mut Own<'_, T, L>, slots: &Slots<T, L>) {
+        let supernodes = self.symbolic.tree.supernodes(part);
+        let start = self.symbolic.columns(&supernodes).start;
+        let blocks = own.len();
+        let mut messages: Vec<Option<Vec<Row<T, L>>>> = supernodes.clone().map(|_| None).collect();
+        let mut spare: Vec<Vec<Row<T, L>>> = Vec::new();
+        let mut work: Vec<Row<T, L>> = Vec::new();
+        let mut pivoted = Vec::new();
+        for index in supernodes.clone().rev() {
+            let supernode = self.symbolic.supernode(index);
+            let (rows, columns) = (supernode.rows(), supernode.columns);
+            let place = supernode.start - start..supernode.start - start + columns;
+            let message = messages[index - supernodes.start].take();
+            let message =
+                message.or_else(|| lock(&slots[index]).take().map(|message| message.rows)).unwrap_or_default();
+            work.clear();
+            for block in 0..blocks {
+                work.extend_from_slice(&own[block][place.clone()]);
+                work.extend_from_slice(&message[block * (rows - columns)..][..rows - columns]);
+            }
+            spare.push(message);
+            for (from, panel) in self.panels(index).rev() {
+                if let Some((below, _)) = panel.pivots {
+                    work.chunks_exact_mut(rows).for_each(|work| panel.divide(below, &mut work[from..]));
+                }
+                let mut left = panel.columns;
+                while left > 0 {
+                    let taken = step(left);
+                    left -= taken;
+                    for work in work.chunks_exact_mut(rows) {
+                        let work = &mut work[from..];
+                        match taken {
+                            8 if L <= T::REGISTER => panel.backward::<L, 8, FUSED>(left, 8, work),
+                            // half of them have their sums in registers
+                            8 => {
+                                panel.backward::<L, 4, FUSED>(left + 4, 4, work);
+                                panel.backward::<L, 4, FUSED>(left, 8, work);
+                            }
+                            4 => panel.backward::<L, 4, FUSED>(left, 4, work),
+                            2 => panel.backward::<L, 2, FUSED>(left, 2, work),
+                            _ => panel.backward::<L, 1, FUSED>(left, 1, work),
+                        }
+                    }
+                }
+                for work in work.chunks_exact_mut(rows) {
+                    panel.in_order_of_rows(&mut work[from..], &mut pivoted);
+                }
+            }
+            for (work, own) in work.chunks_exact(rows).zip(own.iter_mut()) {
+                own[place.clone()].copy_from_slice(&work[..columns]);
+            }
+            for child in self.symbolic.children(index) {
+                let relative = self.symbolic.supernode(child).relative;
+                let mut told = spare.pop().unwrap_or_default();
+                told.clear();
+                for work in work.chunks_exact(rows) {
+                    told.extend(relative.iter().map(|&place| work[place as usize]));
+                }
+                match child.checked_sub(supernodes.start) {
+                    Some(place) => messages[place] = Some(told),
+                    None => *lock(&slots[child]) = Some(Message { blocks: Vec::new(), rows: told }),
+                }
             }
         }
     }
+}
+
+fn lock<V>(mutex: &Mutex<V>) -> std::sync::MutexGuard<'_, V> {
+    mutex.lock().unwrap_or_else(|poisoned| poisoned.into_inner())
 }
 
 /// How many of the columns left are taken at once: a power of two.
@@ -318,50 +422,6 @@ fn step(left: usize) -> usize {
 fn add<T: Precision, const L: usize, const FUSED: bool>(to: &mut Row<T, L>, factor: T, row: &Row<T, L>) {
     for lane in 0..L {
         to[lane] = if FUSED { factor.fused(row[lane], to[lane]) } else { factor * row[lane] + to[lane] };
-    }
-}
-
-/// A precision.
-pub(super) trait Precision: faer::traits::RealField + Copy + Default {
-    /// Values in a register of 32 bytes.
-    const REGISTER: usize;
-    /// The nearest value.
-    fn rounded(value: f64) -> Self;
-    /// The value in double precision.
-    fn exact(self) -> f64;
-    /// `self factor + term`, rounded once.
-    fn fused(self, factor: Self, term: Self) -> Self;
-}
-
-impl Precision for f32 {
-    const REGISTER: usize = 8;
-    #[inline(always)]
-    fn rounded(value: f64) -> Self {
-        value as f32
-    }
-    #[inline(always)]
-    fn exact(self) -> f64 {
-        f64::from(self)
-    }
-    #[inline(always)]
-    fn fused(self, factor: Self, term: Self) -> Self {
-        self.mul_add(factor, term)
-    }
-}
-
-impl Precision for f64 {
-    const REGISTER: usize = 4;
-    #[inline(always)]
-    fn rounded(value: f64) -> Self {
-        value
-    }
-    #[inline(always)]
-    fn exact(self) -> f64 {
-        self
-    }
-    #[inline(always)]
-    fn fused(self, factor: Self, term: Self) -> Self {
-        self.mul_add(factor, term)
     }
 }
 

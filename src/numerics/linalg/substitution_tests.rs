@@ -1,7 +1,8 @@
 //! Substitution with factors of both kinds in blocks of every width.
 
 use super::super::dense::pseudo_random;
-use super::super::numeric::{Kind, NumericFactor};
+use super::super::front::Kind;
+use super::super::numeric::NumericFactor;
 use super::super::ordering::Ordering;
 use super::super::symbolic::{Symbolic, analysed};
 use super::super::symmetric::SymmetricMatrix;

@@ -130,11 +130,19 @@ impl SymmetricMatrix {
         y
     }
 
-    /// `Y = A X` for `X` and `Y` [n x k]. Blocks of columns are independent: the result does not depend on the number of
-    /// threads.
+    /// `Y = A X` for `X` and `Y` [n x k]. Columns are independent: the result does not depend on the number of threads.
     pub(super) fn times_into(&self, x: MatRef<'_, f64>, y: MatMut<'_, f64>) {
-        x.par_col_chunks(LANES).zip(y.par_col_chunks_mut(LANES)).for_each(|(x, mut y)| {
-            SCRATCH.with_borrow_mut(|scratch| self.times_block(x, y.rb_mut(), scratch));
+        // fewer lanes load every entry more often, but no thread idles
+        if x.ncols() <= LANES / 2 || rayon::current_num_threads() > x.ncols().div_ceil(LANES) {
+            self.times_by::<{ LANES / 2 }>(x, y);
+        } else {
+            self.times_by::<LANES>(x, y);
+        }
+    }
+
+    fn times_by<const L: usize>(&self, x: MatRef<'_, f64>, y: MatMut<'_, f64>) {
+        x.par_col_chunks(L).zip(y.par_col_chunks_mut(L)).for_each(|(x, mut y)| {
+            SCRATCH.with_borrow_mut(|scratch| self.times_block::<L>(x, y.rb_mut(), scratch));
             if let Some(followers) = &self.followers {
                 followers.add_times(x, y);
             }
@@ -165,11 +173,12 @@ impl SymmetricMatrix {
         (0..x.ncols()).map(|column| (scatter(column) + further(column)).sqrt()).collect()
     }
 
-    fn times_block(&self, x: MatRef<'_, f64>, mut y: MatMut<'_, f64>, scratch: &mut Scratch) {
+    fn times_block<const L: usize>(&self, x: MatRef<'_, f64>, mut y: MatMut<'_, f64>, scratch: &mut Scratch) {
         let [lanes, product] = scratch;
-        lanes.resize(self.order(), [0.0; LANES]);
+        lanes.resize(self.order() * L, 0.0);
         product.clear();
-        product.resize(self.order(), [0.0; LANES]);
+        product.resize(self.order() * L, 0.0);
+        let (lanes, product) = (lanes.as_chunks_mut::<L>().0, product.as_chunks_mut::<L>().0);
         for (tile, rows) in lanes.chunks_mut(TILE).enumerate() {
             for lane in 0..x.ncols() {
                 let column = x.col(lane).subrows(TILE * tile, rows.len());
@@ -191,7 +200,7 @@ impl SymmetricMatrix {
 }
 
 /// Factors and products of one block, row by row.
-type Scratch = [Vec<[f64; LANES]>; 2];
+type Scratch = [Vec<f64>; 2];
 
 thread_local! {
     /// Kept between products: to touch new memory costs a third of a product.
@@ -199,8 +208,14 @@ thread_local! {
 }
 
 /// `product = A lanes` for a lower triangle in compressed columns, with the widest instructions that the machine has.
-#[multiversion(targets("x86_64+avx2+fma", "aarch64+neon"))]
-fn multiply(offsets: &[u32], rows: &[u32], values: &[f64], lanes: &[[f64; LANES]], product: &mut [[f64; LANES]]) {
+#[multiversion(targets("x86_64+avx512f+avx512vl+avx2+fma", "x86_64+avx2+fma", "aarch64+neon"))]
+fn multiply<const L: usize>(
+    offsets: &[u32],
+    rows: &[u32],
+    values: &[f64],
+    lanes: &[[f64; L]],
+    product: &mut [[f64; L]],
+) {
     // without the instruction a fused product is a call of the library
     if target_cfg_f!(any(target_feature = "fma", target_feature = "neon")) {
         multiply_by(offsets, rows, values, lanes, product, f64::mul_add);
@@ -210,32 +225,32 @@ fn multiply(offsets: &[u32], rows: &[u32], values: &[f64], lanes: &[[f64; LANES]
 }
 
 #[inline(always)]
-fn multiply_by(
+fn multiply_by<const L: usize>(
     offsets: &[u32],
     rows: &[u32],
     values: &[f64],
-    lanes: &[[f64; LANES]],
-    product: &mut [[f64; LANES]],
+    lanes: &[[f64; L]],
+    product: &mut [[f64; L]],
     add: impl Fn(f64, f64, f64) -> f64,
 ) {
     for (column, factor) in lanes.iter().enumerate() {
         let range = offsets[column] as usize..offsets[column + 1] as usize;
-        let mut sum = [0.0; LANES];
+        let mut sum = [0.0; L];
         for (&row, &value) in rows[range.clone()].iter().zip(&values[range]) {
             let row = row as usize;
             if row == column {
-                for lane in 0..LANES {
+                for lane in 0..L {
                     sum[lane] = add(value, factor[lane], sum[lane]);
                 }
             } else {
                 let (below, other) = (&mut product[row], &lanes[row]);
-                for lane in 0..LANES {
+                for lane in 0..L {
                     below[lane] = add(value, factor[lane], below[lane]);
                     sum[lane] = add(value, other[lane], sum[lane]);
                 }
             }
         }
-        for lane in 0..LANES {
+        for lane in 0..L {
             product[column][lane] += sum[lane];
         }
     }

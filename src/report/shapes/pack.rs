@@ -11,13 +11,14 @@ use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
 use flate2::Compression;
 use flate2::write::ZlibEncoder;
+use rayon::prelude::*;
 use serde::Serialize;
 
 use super::super::embed::for_script;
 use super::super::{ReportError, fixed, svg};
 use super::camera::{Camera, NAMES, bounds, diagonal};
 use super::surface::{Surface, SurfaceLine};
-use super::view::{LegendEntry, ModeShapeView, legend};
+use super::view::{LegendEntry, ModeShapeView, ShapeMode, legend};
 
 /// Largest coordinate: 16 bits.
 const GRID: f64 = 65_535.0;
@@ -156,20 +157,24 @@ fn geometry(surface: &Surface) -> Geometry {
 fn modes(view: &ModeShapeView, surface: &Surface, budget: usize) -> Vec<ModeData> {
     let mut left = budget;
     let mut kept = Vec::new();
-    for mode in &view.modes {
+    let displacement = |mode: &ShapeMode| {
         let unit = surface.displacement(&mode.displacement);
-        let steps = unit.iter().flatten().map(|v| (v * STEPS).round() as i32);
-        let displacement = packed(steps, 3);
-        if displacement.len() > left && !kept.is_empty() {
-            break;
+        packed(unit.iter().flatten().map(|v| (v * STEPS).round() as i32), 3)
+    };
+    for some in view.modes.chunks(LEAST_MODES) {
+        let displacements: Vec<String> = some.par_iter().map(displacement).collect();
+        for (mode, displacement) in some.iter().zip(displacements) {
+            if displacement.len() > left && !kept.is_empty() {
+                return kept;
+            }
+            left = left.saturating_sub(displacement.len());
+            kept.push(ModeData {
+                label: mode.label.clone(),
+                frequency: mode.frequency(),
+                note: mode.note.clone(),
+                displacement,
+            });
         }
-        left = left.saturating_sub(displacement.len());
-        kept.push(ModeData {
-            label: mode.label.clone(),
-            frequency: mode.frequency(),
-            note: mode.note.clone(),
-            displacement,
-        });
     }
     kept
 }

@@ -106,10 +106,6 @@ const FREE_SHIFT: f64 = -1e-4;
 /// about its reciprocal.
 pub(super) const FIRM: f64 = 1e6;
 
-/// Entries of a factor above which `L B L^T` is faster than `L L^T`, definite or not (9.1 s against 11.1 s for 2.1e8
-/// entries; 0.7 s against 0.5 s for 2.1e7).
-const LARGE: usize = 1 << 26;
-
 impl EigenProblem {
     /// Factor in the middle of a band, or beside it.
     pub(super) fn middle_factor(&self, low: f64, high: f64) -> Result<(f64, Factor), LinalgError> {
@@ -155,9 +151,7 @@ impl EigenProblem {
     /// Factor of a matrix that must be positive definite, in double precision only where it was asked for before.
     pub(super) fn definite(&self, a: &SymmetricMatrix, thorough: bool) -> Result<Factor, LinalgError> {
         let factorise = if thorough { Factor::new } else { Factor::quick };
-        let large = self.symbolic.len_val() > LARGE;
-        let kind = if large { Kind::Indefinite } else { Kind::Definite };
-        let factor = factorise(&self.symbolic, a, kind, FactorMemory::default())?;
+        let factor = factorise(&self.symbolic, a, Kind::Definite, FactorMemory::default())?;
         match factor.negative() {
             0 => Ok(factor),
             negative => Err(LinalgError::Refused(format!(

@@ -1,7 +1,7 @@
 //! The lowest pairs, and beside the iteration the count that proves them.
 
 use super::super::lowest::Search;
-use super::super::{CountCheck, EigenPairs, EigenProblem, EigenTimes, Factor, FactorMemory, LinalgError, symbolic};
+use super::super::{CountCheck, EigenPairs, EigenProblem, EigenTimes, Factor, FactorMemory, LinalgError, memory};
 use super::cuts::FIRM;
 use crate::numerics::Told;
 use std::sync::Arc;
@@ -158,8 +158,8 @@ impl EigenProblem {
 
     /// Whether a second factor can stand beside the first without filling the memory.
     fn has_room(&self) -> bool {
-        let bytes = SINGLE * self.symbolic.len_val() as u64;
-        symbolic::available().is_none_or(|free| free / 2 > bytes)
+        let bytes = SINGLE * self.symbolic.entries() as u64;
+        memory::available().is_none_or(|free| free / 2 > bytes)
     }
 
     /// Where in a gap it was counted, how many eigenvalues lie below, and how long that took, s.

@@ -3,7 +3,7 @@
 use super::super::bound::ROUNDING;
 use super::super::{
     CountCheck, DenseMatrix, EigenPairs, EigenTimes, Factor, Followers, LinalgError, Ordering, SparseCholesky,
-    SparseMatrix, Symbolic, SymmetricMatrix, analysed, gigabytes, symbolic,
+    SparseMatrix, Symbolic, SymmetricMatrix, analysed, gigabytes, memory,
 };
 use std::sync::Arc;
 use std::time::Instant;
@@ -126,7 +126,7 @@ impl EigenProblem {
     pub(super) fn find_room(&self, count: usize) -> Result<(), LinalgError> {
         let order = self.order();
         let bytes = 8 * COPIES * order as u64 * count as u64;
-        match symbolic::available() {
+        match memory::available() {
             Some(free) if bytes > free => Err(LinalgError::Refused(format!(
                 "{count} modes of {order} degrees of freedom take at least {} GB, {} GB of memory are free; ask for fewer modes",
                 gigabytes(bytes),
