@@ -27,7 +27,7 @@ pub(super) type Symbolic = SymbolicSupernodalCholesky<u32>;
 /// Analyses the pattern of a matrix in the order in which it is factorised.
 ///
 /// # Errors
-/// [`LinalgError::Refused`] if the factor has more than 2^31 entries or more than memory holds; [`LinalgError::Factorisation`]
+/// [`LinalgError::TooLarge`] if the factor has more than 2^31 entries or more than memory holds; [`LinalgError::Factorisation`]
 /// if memory does not suffice for the analysis.
 pub(super) fn analysed(a: &SymmetricMatrix) -> Result<Symbolic, LinalgError> {
     let order = a.order();
@@ -52,7 +52,7 @@ pub(super) fn analysed(a: &SymmetricMatrix) -> Result<Symbolic, LinalgError> {
 /// Checks that a factor fits: in single precision where it is large, which is tried first.
 ///
 /// # Errors
-/// [`LinalgError::Refused`].
+/// [`LinalgError::TooLarge`].
 fn affordable(order: usize, entries: u64, free: Option<u64>) -> Result<(), LinalgError> {
     let large = entries > SMALL as u64;
     let bytes = entries * if large { 4 } else { 8 };
@@ -61,10 +61,7 @@ fn affordable(order: usize, entries: u64, free: Option<u64>) -> Result<(), Linal
         Some(free) if bytes > free => format!("{} GB of memory are free", gigabytes(free)),
         _ => return Ok(()),
     };
-    Err(LinalgError::Refused(format!(
-        "the factor of a {order} x {order} matrix has {entries} entries, at least {} GB: {limit}; expected a coarser mesh, or elements of lower order",
-        gigabytes(bytes)
-    )))
+    Err(LinalgError::TooLarge { order, entries, bytes, limit })
 }
 
 /// Upper triangle in compressed columns: the transposed pattern.

@@ -155,7 +155,7 @@ impl EigenProblem {
     /// Factor of a matrix that must be positive definite, in double precision only where it was asked for before.
     pub(super) fn definite(&self, a: &SymmetricMatrix, thorough: bool) -> Result<Factor, LinalgError> {
         let factorise = if thorough { Factor::new } else { Factor::quick };
-        let large = self.symbolic.len_val() > LARGE;
+        let large = self.symbolic.entries() > LARGE;
         let kind = if large { Kind::Indefinite } else { Kind::Definite };
         let factor = factorise(&self.symbolic, a, kind, FactorMemory::default())?;
         match factor.negative() {
