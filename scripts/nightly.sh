@@ -18,6 +18,12 @@ step cargo test --release --test robustness -- --ignored --nocapture --test-thre
 step cargo test --release --test program -- --ignored --nocapture --test-threads 1
 step env PROPTEST_CASES="${PROPTEST_CASES:-10000}" cargo test --release --lib
 
+if [ -e /usr/include/dmumps_c.h ] && command -v mpirun >/dev/null 2>&1; then
+    step cargo test --release --features mumps-mpi --test mumps
+else
+    echo "== MUMPS is not tested: it is missing (apt-get install libmumps-dev openmpi-bin)"
+fi
+
 if cargo +nightly fuzz --version >/dev/null 2>&1; then
     for target in tests/fuzz/fuzz_targets/*.rs; do
         step cargo +nightly fuzz run "$(basename "$target" .rs)" --fuzz-dir tests/fuzz -- -max_total_time="${FUZZ_SECONDS:-600}"

@@ -9,6 +9,8 @@ pub trait Watch: Sync {
     fn stage(&self, name: &str);
     /// Part of the stage that is done, 0 to 1; the first is where it begins.
     fn fraction(&self, done: f64);
+    /// What a user should know meanwhile, in a sentence.
+    fn note(&self, _sentence: &str) {}
     /// A mesh was read, and this was its content.
     fn read(&self, _file: &FileDigest) {}
     /// The folder that keeps what took long for the next computation, if there is one.

@@ -161,6 +161,8 @@ pub(super) fn catch_interrupts() -> Result<(), CliError> {
                 let _ = writeln!(to);
             }
             error.report(&mut to);
+            #[cfg(feature = "mumps")]
+            crate::numerics::linalg::abandon();
             signal_hook::low_level::exit(error.exit_code().into());
         }
     };

@@ -69,6 +69,10 @@ pub fn main() -> ExitCode {
 /// signals belong to the program from then on.
 #[must_use]
 pub fn main_of(arguments: Vec<OsString>) -> u8 {
+    #[cfg(feature = "mumps-mpi")]
+    if crate::numerics::linalg::joined() {
+        return 0;
+    }
     program::declare_arguments(arguments);
     let named = std::thread::Builder::new().name("main".to_owned());
     match named.stack_size(STACK).spawn(on_arguments) {

@@ -217,6 +217,10 @@ impl crate::numerics::Watch for Progress {
         Progress::stage(self, name);
     }
 
+    fn note(&self, sentence: &str) {
+        Progress::note(self, sentence);
+    }
+
     fn fraction(&self, done: f64) {
         self.set(done);
     }

@@ -1,7 +1,7 @@
 //! Modes of a structure with everything that proves them.
 
 use crate::numerics::Told;
-use crate::numerics::linalg::{DenseMatrix, EigenProblem, EigenTimes, LinalgError, symmetric_eigen};
+use crate::numerics::linalg::{DenseMatrix, EigenProblem, EigenTimes, FactorChoice, LinalgError, symmetric_eigen};
 use schemars::JsonSchema;
 use serde::Serialize;
 use std::f64::consts::TAU;
@@ -78,6 +78,9 @@ pub struct ModalBasis {
     pub count_check: FrequencyCount,
     /// Shift of the factorisation, 1/s^2.
     pub shift: f64,
+    /// Who factorised, if not plummer itself.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub factor: Option<FactorChoice>,
     /// Wall time of the eigenvalue computation, s.
     #[serde(rename = "eigen_s")]
     pub times: EigenTimes,
@@ -125,6 +128,7 @@ impl ModalBasis {
                 found: check.found,
             },
             shift: pairs.shift,
+            factor: problem.factor_choice(),
             times: pairs.times,
             bounds: pairs.bounds,
             rounding: pairs.rounding,

@@ -39,6 +39,9 @@ impl FullModes {
         watch.stage("order");
         let problem = EigenProblem::restricted(&stiffness, &mass, &free)?;
         drop((stiffness, mass));
+        if let Some(choice) = problem.factor_choice() {
+            watch.note(&format!("factorised by {}: {}", choice.by, choice.why));
+        }
         watch.stage("eigen");
         let told = |part| watch.fraction(part);
         let basis = match products {

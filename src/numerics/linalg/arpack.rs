@@ -1,4 +1,4 @@
-//! Debian's ARPACK behind one safe function: the only `unsafe` code of the program.
+//! Debian's ARPACK behind one safe function.
 //!
 //! **Life cycle.** `dsaupd_c` is called again and again with the same buffers until it sets
 //! `ido = 99`; between calls it asks for a product with `(K - sigma M)^-1` or with `M` on a part of

@@ -2,7 +2,7 @@
 
 use super::factor::LARGEST_CONTRACTION;
 use super::{
-    DenseMatrix, Factor, FactorMemory, Followers, Kind, LinalgError, Ordering, SparseMatrix, SymmetricMatrix, analysed,
+    DenseMatrix, Factor, FactorMemory, Followers, Kind, LinalgError, Ordering, Plan, SparseMatrix, SymmetricMatrix,
 };
 use std::sync::Arc;
 
@@ -36,7 +36,7 @@ impl SparseCholesky {
         let ordering = Ordering::of(a)?;
         let mut permuted = SymmetricMatrix::permuted(a, &ordering);
         permuted.followers = followers.map(|followers| followers.permuted(&ordering));
-        let symbolic = Arc::new(analysed(&permuted)?);
+        let symbolic = Arc::new(Plan::of(&permuted)?);
         let row = |place: usize| ordering.old.get(place).map_or(0, |&row| row as usize);
         let memory = FactorMemory::default();
         let factor = Factor::unjudged(&symbolic, &permuted, Kind::Definite, true, memory);

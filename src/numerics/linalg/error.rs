@@ -27,6 +27,21 @@ pub enum LinalgError {
         /// What the library said.
         reason: &'static str,
     },
+    /// A factor that is larger than the memory.
+    #[error(
+        "the factor of a {order} x {order} matrix has {entries} entries, at least {} GB: {limit}; expected a coarser mesh, or elements of lower order",
+        gigabytes(*bytes)
+    )]
+    TooLarge {
+        /// Number of rows of the matrix.
+        order: usize,
+        /// Entries of its factor.
+        entries: u64,
+        /// What they take.
+        bytes: u64,
+        /// What it was compared with.
+        limit: String,
+    },
     /// A problem that is too large for the memory or not determined, found before it is solved; a sentence.
     #[error("{0}")]
     Refused(String),

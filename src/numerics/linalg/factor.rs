@@ -3,8 +3,10 @@
 use super::dense::pseudo_random;
 use super::followers::Correction;
 use super::memory::SMALL;
+#[cfg(feature = "mumps")]
+use super::mumps;
 use super::numeric::NumericFactor;
-use super::{Kind, LinalgError, Symbolic, SymmetricMatrix};
+use super::{Kind, LinalgError, Plan, SymmetricMatrix};
 use faer::MatMut;
 use std::sync::Arc;
 
@@ -25,6 +27,53 @@ const PROBES: (usize, usize) = (2, 2);
 pub(super) enum Numbers {
     Single(NumericFactor<f32>),
     Double(NumericFactor<f64>),
+    #[cfg(feature = "mumps")]
+    Mumps(Box<mumps::Numbers>),
+}
+
+impl Numbers {
+    /// Factorises a matrix as planned.
+    fn new(
+        plan: &Plan,
+        a: &SymmetricMatrix,
+        kind: Kind,
+        double: bool,
+        memory: FactorMemory,
+    ) -> Result<Self, LinalgError> {
+        Ok(match plan {
+            Plan::Own(symbolic) if double || symbolic.entries() <= SMALL => {
+                Self::Double(NumericFactor::new(symbolic, a, kind, memory.double)?)
+            }
+            Plan::Own(symbolic) => Self::Single(NumericFactor::new(symbolic, a, kind, memory.single)?),
+            #[cfg(feature = "mumps")]
+            Plan::Mumps { way, .. } => Self::Mumps(Box::new(mumps::Numbers::new(a, kind, *way, double)?)),
+        })
+    }
+
+    /// `F^-1 B` in place for `B` [n x k].
+    fn solve(&self, plan: &Plan, b: MatMut<'_, f64>) {
+        match (self, plan) {
+            (Self::Single(numbers), Plan::Own(symbolic)) => numbers.solve(symbolic, b),
+            (Self::Double(numbers), Plan::Own(symbolic)) => numbers.solve(symbolic, b),
+            #[cfg(feature = "mumps")]
+            (Self::Mumps(numbers), _) => numbers.solve(b),
+            // numbers are those of their own plan
+            #[cfg(feature = "mumps")]
+            _ => { b }.fill(f64::NAN),
+        }
+    }
+
+    /// Number of negative eigenvalues of the matrix.
+    fn negative(&self, plan: &Plan) -> usize {
+        match (self, plan) {
+            (Self::Single(numbers), Plan::Own(symbolic)) => numbers.negative(symbolic),
+            (Self::Double(numbers), Plan::Own(symbolic)) => numbers.negative(symbolic),
+            #[cfg(feature = "mumps")]
+            (Self::Mumps(numbers), _) => numbers.negative(),
+            #[cfg(feature = "mumps")]
+            _ => usize::MAX,
+        }
+    }
 }
 
 /// Factor F of a symmetric matrix A, in an order of its own.
@@ -37,7 +86,7 @@ pub(super) enum Numbers {
 #[derive(Debug)]
 pub(super) struct Factor {
     /// Where its entries are.
-    pub symbolic: Arc<Symbolic>,
+    pub symbolic: Arc<Plan>,
     numbers: Numbers,
     /// What followers add to solutions and counts.
     correction: Option<Correction>,
@@ -62,7 +111,7 @@ impl Factor {
     /// [`LinalgError::NotPositiveDefinite`], [`LinalgError::Factorisation`], or [`LinalgError::NearlySingular`] if
     /// the factor in double precision does not solve its own system either.
     pub(super) fn new(
-        symbolic: &Arc<Symbolic>,
+        symbolic: &Arc<Plan>,
         a: &SymmetricMatrix,
         kind: Kind,
         memory: FactorMemory,
@@ -82,7 +131,7 @@ impl Factor {
     /// # Errors
     /// As [`Factor::new`], already if single precision does not suffice.
     pub(super) fn quick(
-        symbolic: &Arc<Symbolic>,
+        symbolic: &Arc<Plan>,
         a: &SymmetricMatrix,
         kind: Kind,
         memory: FactorMemory,
@@ -94,7 +143,7 @@ impl Factor {
     ///
     /// # Errors
     /// As [`Factor::new`].
-    pub(super) fn double(symbolic: &Arc<Symbolic>, a: &SymmetricMatrix, kind: Kind) -> Result<Self, LinalgError> {
+    pub(super) fn double(symbolic: &Arc<Plan>, a: &SymmetricMatrix, kind: Kind) -> Result<Self, LinalgError> {
         Self::unjudged(symbolic, a, kind, true, FactorMemory::default())?.judged()
     }
 
@@ -104,23 +153,23 @@ impl Factor {
     /// # Errors
     /// [`LinalgError::Factorisation`], [`LinalgError::NotPositiveDefinite`].
     pub(super) fn unjudged(
-        symbolic: &Arc<Symbolic>,
+        symbolic: &Arc<Plan>,
         a: &SymmetricMatrix,
         kind: Kind,
         double: bool,
         memory: FactorMemory,
     ) -> Result<Self, LinalgError> {
-        let numbers = if double || symbolic.entries() <= SMALL {
-            Numbers::Double(NumericFactor::new(symbolic, a, kind, memory.double)?)
-        } else {
-            Numbers::Single(NumericFactor::new(symbolic, a, kind, memory.single)?)
-        };
-        Ok(Self::measured(symbolic, a, numbers))
+        Ok(Self::measured(symbolic, a, Numbers::new(symbolic, a, kind, double, memory)?))
     }
 
     /// Whether its entries are in double precision.
     pub(super) fn is_double(&self) -> bool {
-        matches!(self.numbers, Numbers::Double(_))
+        match &self.numbers {
+            Numbers::Single(_) => false,
+            Numbers::Double(_) => true,
+            #[cfg(feature = "mumps")]
+            Numbers::Mumps(numbers) => numbers.is_double(),
+        }
     }
 
     /// This factor of `a` with its entries rounded to single precision, half as much to read for every solve; `None` if it is
@@ -142,7 +191,7 @@ impl Factor {
         }
     }
 
-    pub(super) fn measured(symbolic: &Arc<Symbolic>, a: &SymmetricMatrix, numbers: Numbers) -> Self {
+    pub(super) fn measured(symbolic: &Arc<Plan>, a: &SymmetricMatrix, numbers: Numbers) -> Self {
         let mut factor =
             Self { symbolic: Arc::clone(symbolic), numbers, correction: None, contraction: f64::INFINITY, weakest: 0 };
         factor.correction = a.followers.as_ref().map(|followers| followers.correction(|b| factor.solve(b)));
@@ -167,10 +216,7 @@ impl Factor {
 
     /// Whether the matrix is well enough conditioned to iterate with.
     pub(super) fn is_sharp(&self) -> bool {
-        match self.numbers {
-            Numbers::Single(_) => self.contraction <= LARGEST_CONTRACTION,
-            Numbers::Double(_) => self.contraction <= DULL,
-        }
+        self.contraction <= if self.is_double() { DULL } else { LARGEST_CONTRACTION }
     }
 
     /// The memory of its entries, for another factor.
@@ -178,15 +224,14 @@ impl Factor {
         match self.numbers {
             Numbers::Single(numbers) => FactorMemory { single: numbers.values, ..FactorMemory::default() },
             Numbers::Double(numbers) => FactorMemory { double: numbers.values, ..FactorMemory::default() },
+            #[cfg(feature = "mumps")]
+            Numbers::Mumps(_) => FactorMemory::default(),
         }
     }
 
     /// `F^-1 B` in place for `B` [n x k].
     pub(super) fn solve(&self, mut b: MatMut<'_, f64>) {
-        match &self.numbers {
-            Numbers::Single(numbers) => numbers.solve(&self.symbolic, b.as_mut()),
-            Numbers::Double(numbers) => numbers.solve(&self.symbolic, b.as_mut()),
-        }
+        self.numbers.solve(&self.symbolic, b.as_mut());
         if let Some(correction) = &self.correction {
             correction.apply(b);
         }
@@ -194,10 +239,7 @@ impl Factor {
 
     /// Number of negative eigenvalues of the matrix.
     pub(super) fn negative(&self) -> usize {
-        let alone = match &self.numbers {
-            Numbers::Single(numbers) => numbers.negative(&self.symbolic),
-            Numbers::Double(numbers) => numbers.negative(&self.symbolic),
-        };
+        let alone = self.numbers.negative(&self.symbolic);
         self.correction.as_ref().map_or(alone, |correction| correction.negative(alone))
     }
 }
@@ -209,12 +251,11 @@ mod incompressible;
 #[cfg(test)]
 mod tests {
     use super::super::ordering::Ordering;
-    use super::super::symbolic::analysed;
-    use super::super::{DenseMatrix, TripletBuilder};
+    use super::super::{DenseMatrix, Plan, TripletBuilder};
     use super::*;
 
     /// Chain of unit springs fixed at both ends, less sigma.
-    fn chain(order: usize, sigma: f64) -> (Arc<Symbolic>, SymmetricMatrix) {
+    fn chain(order: usize, sigma: f64) -> (Arc<Plan>, SymmetricMatrix) {
         let mut a = TripletBuilder::new(order, order);
         for row in 0..order {
             a.add(row, row, 2.0 - sigma);
@@ -226,7 +267,7 @@ mod tests {
         let a = a.build();
         let ordering = Ordering::of(&a).expect("an order");
         let permuted = SymmetricMatrix::permuted(&a, &ordering);
-        (Arc::new(analysed(&permuted).expect("analysed")), permuted)
+        (Arc::new(Plan::of(&permuted).expect("analysed")), permuted)
     }
 
     fn value(j: usize, order: usize) -> f64 {
@@ -241,7 +282,7 @@ mod tests {
             let (symbolic, a) = chain(order, sigma);
             let factor = Factor::new(&symbolic, &a, Kind::Indefinite, FactorMemory::default()).expect("regular");
             assert_eq!(factor.negative(), below);
-            let single = NumericFactor::<f32>::new(&symbolic, &a, Kind::Indefinite, Vec::new()).expect("regular");
+            let single = NumericFactor::<f32>::new(symbolic.own(), &a, Kind::Indefinite, Vec::new()).expect("regular");
             let single = Factor::measured(&symbolic, &a, Numbers::Single(single));
             // single precision cannot tell eigenvalues 6e-5 apart where the largest is 4; it says so
             assert!(single.negative() == below || single.contraction > LARGEST_CONTRACTION);
@@ -267,7 +308,7 @@ mod tests {
     fn contraction_grows_with_the_condition() {
         for (order, limits) in [(20, [1e-9, 1e-4]), (2000, [1e-6, f64::INFINITY])] {
             let (symbolic, a) = chain(order, 0.0);
-            let numbers = NumericFactor::<f32>::new(&symbolic, &a, Kind::Definite, Vec::new()).expect("definite");
+            let numbers = NumericFactor::<f32>::new(symbolic.own(), &a, Kind::Definite, Vec::new()).expect("definite");
             let factor = Factor::measured(&symbolic, &a, Numbers::Single(numbers));
             let found = factor.contraction;
             assert!(found > limits[0] && found < limits[1], "{order} {found:e}");
@@ -279,7 +320,7 @@ mod tests {
     fn a_rounded_factor_solves_to_single_precision() {
         for kind in [Kind::Definite, Kind::Indefinite] {
             let (symbolic, a) = chain(20, 0.0);
-            let double = NumericFactor::<f64>::new(&symbolic, &a, kind, Vec::new()).expect("definite");
+            let double = NumericFactor::<f64>::new(symbolic.own(), &a, kind, Vec::new()).expect("definite");
             let rounded = Factor::measured(&symbolic, &a, Numbers::Single(double.rounded()));
             let found = rounded.contraction;
             assert!(found > 1e-9 && found < 1e-4, "{found:e}");
@@ -296,11 +337,11 @@ mod tests {
             (y - &x).norm_max()
         };
         for kind in [Kind::Definite, Kind::Indefinite] {
-            let double = NumericFactor::<f64>::new(&symbolic, &a, kind, Vec::new()).expect("definite");
+            let double = NumericFactor::<f64>::new(symbolic.own(), &a, kind, Vec::new()).expect("definite");
             // condition 3300 times the unit round-off, and a factor of ten
-            assert!(error(b.clone(), &|y| double.solve(&symbolic, y.as_mut())) < 1e-11);
-            let single = NumericFactor::<f32>::new(&symbolic, &a, kind, Vec::new()).expect("definite");
-            let lost = error(b.clone(), &|y| single.solve(&symbolic, y.as_mut()));
+            assert!(error(b.clone(), &|y| double.solve(symbolic.own(), y.as_mut())) < 1e-11);
+            let single = NumericFactor::<f32>::new(symbolic.own(), &a, kind, Vec::new()).expect("definite");
+            let lost = error(b.clone(), &|y| single.solve(symbolic.own(), y.as_mut()));
             assert!(lost < 3e-3 && lost > 1e-9, "{lost:e}");
         }
     }

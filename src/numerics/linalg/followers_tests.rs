@@ -1,8 +1,6 @@
 //! Followers against the dense matrix with the followers eliminated.
 
-use super::super::{
-    EigenProblem, Factor, Kind, SparseCholesky, SymmetricMatrix, analysed, symmetric_generalised_eigen,
-};
+use super::super::{EigenProblem, Factor, Kind, Plan, SparseCholesky, SymmetricMatrix, symmetric_generalised_eigen};
 use super::*;
 use crate::numerics::linalg::dense::pseudo_random;
 use crate::numerics::linalg::sparse::placed;
@@ -140,7 +138,7 @@ fn negative_eigenvalues_are_counted_at_every_shift() {
         a
     };
     let [stiffness, mass] = [part(0), part(1)];
-    let symbolic = Arc::new(analysed(&stiffness.shifted(1.0, &mass)).expect("analysed"));
+    let symbolic = Arc::new(Plan::of(&stiffness.shifted(1.0, &mass)).expect("analysed"));
     for below in 0..=40 {
         let value = |place: usize| expected.get(place).copied().unwrap_or(2.0 * expected[39]);
         let sigma = if below == 0 { -0.1 } else { 0.5 * (value(below - 1) + value(below)) };

@@ -15,9 +15,7 @@ pub(crate) use dense::complex_solve;
 pub use error::HarmonicError;
 pub use matrices::{HarmonicDamping, MotionDamping};
 
-use super::{
-    ComplexMatrix, DenseMatrix, Factor, FactorMemory, Kind, LinalgError, Ordering, SparseMatrix, Symbolic, analysed,
-};
+use super::{ComplexMatrix, DenseMatrix, Factor, FactorMemory, Kind, LinalgError, Ordering, Plan, SparseMatrix};
 use faer::c64;
 use matrices::HarmonicMatrices;
 use std::f64::consts::TAU;
@@ -45,7 +43,7 @@ const RESONANCE: f64 = 1e-4;
 pub struct HarmonicProblem {
     ordering: Ordering,
     matrices: HarmonicMatrices,
-    symbolic: Arc<Symbolic>,
+    symbolic: Arc<Plan>,
     memory: Mutex<FactorMemory>,
 }
 
@@ -102,7 +100,7 @@ impl HarmonicProblem {
     ) -> Result<Self, HarmonicError> {
         let ordering = Ordering::of_problem(k, m, kept)?;
         let matrices = HarmonicMatrices::new(k, m, damping, &ordering)?;
-        let symbolic = Arc::new(analysed(&matrices.real(1.0))?);
+        let symbolic = Arc::new(Plan::of(&matrices.real(1.0))?);
         Ok(Self { ordering, matrices, symbolic, memory: Mutex::default() })
     }
 

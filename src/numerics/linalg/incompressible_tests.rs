@@ -1,7 +1,7 @@
 //! Factors in single precision of nearly incompressible material: used where they serve, refused where they do not.
 
+use super::super::Plan;
 use super::super::ordering::Ordering;
-use super::super::symbolic::analysed;
 use super::super::{DenseMatrix, SparseMatrix};
 use super::*;
 use crate::fe::assembly::SystemMatrices;
@@ -45,9 +45,9 @@ fn single_precision_is_left_when_it_does_not_serve() {
         let ordering = Ordering::of_part(&k, &free).expect("an order");
         let stiffness = SymmetricMatrix::permuted(&k, &ordering);
         let mass = SymmetricMatrix::permuted(&m, &ordering);
-        let symbolic = Arc::new(analysed(&stiffness).expect("analysed"));
+        let symbolic = Arc::new(Plan::of(&stiffness).expect("analysed"));
         let factorise = |a: &SymmetricMatrix, kind: Kind| {
-            NumericFactor::new(&symbolic, a, kind, Vec::new())
+            NumericFactor::new(symbolic.own(), a, kind, Vec::new())
                 .and_then(|numbers| Factor::measured(&symbolic, a, Numbers::Single(numbers)).judged())
                 .or_else(|_| Factor::double(&symbolic, a, kind))
                 .expect("in one precision or the other")

@@ -6,15 +6,17 @@ use std::fs;
 /// Entries up to which a factor is computed in double precision: it is small, and so is its time.
 pub(super) const SMALL: usize = 1 << 22;
 
-/// An error if a factor with so many entries does not fit into `free` bytes.
+/// Checks that a factor with so many entries fits into `free` bytes.
+///
+/// # Errors
+/// [`LinalgError::TooLarge`].
 pub(super) fn affordable(order: usize, entries: usize, free: Option<u64>) -> Result<(), LinalgError> {
     let bytes = entries as u64 * if entries > SMALL { 4 } else { 8 };
     match free {
-        Some(free) if bytes > free => Err(LinalgError::Refused(format!(
-            "the factor of a {order} x {order} matrix has {entries} entries, at least {} GB: {} GB of memory are free; expected a coarser mesh, or elements of lower order",
-            gigabytes(bytes),
-            gigabytes(free)
-        ))),
+        Some(free) if bytes > free => {
+            let limit = format!("{} GB of memory are free", gigabytes(free));
+            Err(LinalgError::TooLarge { order, entries: entries as u64, bytes, limit })
+        }
         _ => Ok(()),
     }
 }

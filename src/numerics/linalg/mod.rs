@@ -27,8 +27,11 @@ mod lu;
 mod memory;
 #[allow(unsafe_code)]
 mod metis;
+#[cfg(feature = "mumps")]
+mod mumps;
 mod numeric;
 mod ordering;
+mod plan;
 mod precision;
 mod rest;
 mod sparse;
@@ -53,10 +56,15 @@ pub use harmonic::{
 pub(crate) use harmonic::{complex_columns, complex_solve};
 pub(crate) use idle::{acting_generalised_eigen, acting_motions, congruent};
 pub(crate) use lu::SmallLu;
+#[cfg(feature = "mumps")]
+pub(crate) use mumps::abandon;
+#[cfg(feature = "mumps-mpi")]
+pub(crate) use mumps::joined;
 pub(in crate::numerics::linalg) use ordering::Ordering;
+pub use plan::FactorChoice;
+pub(in crate::numerics::linalg) use plan::Plan;
 pub use sparse::{SparseMatrix, TripletBuilder, sparse_times_dense, submatrix, transpose_times_dense};
 pub(crate) use sparse::{congruence, placed, scattered_rows};
-pub(in crate::numerics::linalg) use symbolic::{Symbolic, analysed};
 pub(in crate::numerics::linalg) use symmetric::SymmetricMatrix;
 
 /// Dense column-major matrix of `f64`.

@@ -152,7 +152,7 @@ impl Symbolic {
 /// Analyses the pattern of a matrix.
 ///
 /// # Errors
-/// [`LinalgError::Refused`] if there is no memory for the factor.
+/// [`LinalgError::TooLarge`] if there is no memory for the factor.
 pub(super) fn analysed(a: &SymmetricMatrix) -> Result<Symbolic, LinalgError> {
     let nodes = Nodes::of(a);
     let merged = nodes.eliminated().merged(&nodes);

@@ -2,8 +2,8 @@
 
 use super::super::bound::ROUNDING;
 use super::super::{
-    CountCheck, DenseMatrix, EigenPairs, EigenTimes, Factor, Followers, LinalgError, Ordering, SparseCholesky,
-    SparseMatrix, Symbolic, SymmetricMatrix, analysed, gigabytes, memory,
+    CountCheck, DenseMatrix, EigenPairs, EigenTimes, Factor, FactorChoice, Followers, LinalgError, Ordering, Plan,
+    SparseCholesky, SparseMatrix, SymmetricMatrix, gigabytes, memory,
 };
 use std::sync::Arc;
 use std::time::Instant;
@@ -21,7 +21,7 @@ pub struct EigenProblem {
     pub(super) ordering: Arc<Ordering>,
     pub(super) stiffness: SymmetricMatrix,
     pub(super) mass: SymmetricMatrix,
-    pub(super) symbolic: Arc<Symbolic>,
+    pub(super) symbolic: Arc<Plan>,
     /// Factor of K, if somebody has it.
     pub(super) factor: Option<Arc<Factor>>,
     pub(super) order_s: f64,
@@ -48,7 +48,7 @@ impl EigenProblem {
         let ordering = Ordering::of_problem(k, m, kept)?;
         let stiffness = SymmetricMatrix::permuted(k, &ordering);
         let mass = SymmetricMatrix::permuted(m, &ordering);
-        let symbolic = Arc::new(analysed(&stiffness.shifted(1.0, &mass))?);
+        let symbolic = Arc::new(Plan::of(&stiffness.shifted(1.0, &mass))?);
         Ok(Self {
             ordering: Arc::new(ordering),
             stiffness,
@@ -80,13 +80,18 @@ impl EigenProblem {
         let symbolic = if stiffness.covers(&mass) {
             Arc::clone(&factor.symbolic)
         } else {
-            Arc::new(analysed(&stiffness.shifted(1.0, &mass))?)
+            Arc::new(Plan::of(&stiffness.shifted(1.0, &mass))?)
         };
         if let Some([of_stiffness, of_mass]) = followers {
             stiffness.followers = Some(of_stiffness.permuted(&ordering));
             mass.followers = Some(of_mass.permuted(&ordering));
         }
         Ok(Self { ordering, stiffness, mass, symbolic, factor: Some(factor), order_s: started.elapsed().as_secs_f64() })
+    }
+
+    /// Who factorises, if not our own factor.
+    pub(crate) fn factor_choice(&self) -> Option<FactorChoice> {
+        self.symbolic.choice()
     }
 
     /// Number of degrees of freedom.

@@ -220,7 +220,7 @@ fn both_precisions_lead_to_the_same_response() {
     let a = problem.matrices.real(omega * omega);
     let solve = |factor: &Factor| krylov::solve(&f, |x| problem.matrices.times(omega, x), |x| factor.solve(x.as_mut()));
     let double = Factor::unjudged(&problem.symbolic, &a, Kind::Indefinite, true, FactorMemory::default());
-    let numbers = NumericFactor::new(&problem.symbolic, &a, Kind::Indefinite, Vec::new()).expect("regular");
+    let numbers = NumericFactor::new(problem.symbolic.own(), &a, Kind::Indefinite, Vec::new()).expect("regular");
     let single = Factor::measured(&problem.symbolic, &a, Numbers::Single(numbers));
     let found = [double.expect("regular"), single].map(|factor| solve(&factor));
     assert!(found.iter().all(|found| found.residuals[0] <= 1e-12));

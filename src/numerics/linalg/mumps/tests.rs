@@ -1,0 +1,111 @@
+use super::super::dense::pseudo_random;
+use super::super::factor::{Factor, LARGEST_CONTRACTION, Numbers as OfFactor};
+use super::super::{Ordering, Plan, TripletBuilder};
+use super::*;
+use std::sync::Arc;
+
+const WAYS: [Way; 3] = [Way::InCore, Way::LowRank, Way::OutOfCore];
+
+/// Cube of unit springs between its points, each of them held by one more, less sigma: `3 + ...` in three directions.
+fn cube(edge: usize, sigma: f64) -> SymmetricMatrix {
+    let place = |x: usize, y: usize, z: usize| x + edge * (y + edge * z);
+    let mut a = TripletBuilder::new(edge.pow(3), edge.pow(3));
+    for z in 0..edge {
+        for y in 0..edge {
+            for x in 0..edge {
+                let own = place(x, y, z);
+                a.add(own, own, 6.0 - sigma);
+                let further = [(x + 1, y, z), (x, y + 1, z), (x, y, z + 1)];
+                for (x, y, z) in further.into_iter().filter(|&(x, y, z)| x.max(y).max(z) < edge) {
+                    a.add(own, place(x, y, z), -1.0);
+                    a.add(place(x, y, z), own, -1.0);
+                }
+            }
+        }
+    }
+    let a = a.build();
+    let ordering = Ordering::of(&a).expect("an order");
+    SymmetricMatrix::permuted(&a, &ordering)
+}
+
+/// Eigenvalues of the cube below sigma, from those of a chain of `edge` points.
+fn below(edge: usize, sigma: f64) -> usize {
+    let chain = |j: usize| 2.0 - 2.0 * ((j + 1) as f64 * std::f64::consts::PI / (edge + 1) as f64).cos();
+    let all = (0..edge.pow(3)).map(|j| chain(j % edge) + chain(j / edge % edge) + chain(j / edge / edge));
+    all.filter(|value| *value < sigma).count()
+}
+
+#[test]
+fn every_way_counts_the_eigenvalues_of_a_cube() {
+    for sigma in [0.0, 0.17, 0.61, 3.1] {
+        let a = cube(14, sigma);
+        for way in WAYS {
+            for double in [false, true] {
+                let numbers = Numbers::new(&a, Kind::Indefinite, way, double).expect("regular");
+                assert_eq!(numbers.negative(), below(14, sigma), "{way} {sigma}");
+                let plan = Arc::new(Plan::of(&a).expect("analysed"));
+                let factor = Factor::measured(&plan, &a, OfFactor::Mumps(Box::new(numbers)));
+                assert!(factor.contraction < LARGEST_CONTRACTION, "{way} {sigma}: {:e}", factor.contraction);
+                assert_eq!(factor.is_double(), double);
+            }
+        }
+    }
+}
+
+#[test]
+fn many_right_hand_sides_are_solved_for() {
+    let a = cube(9, 0.0);
+    let x = pseudo_random(a.order(), 41, 3);
+    for way in WAYS {
+        for (double, limit) in [(false, 1e-3), (true, 1e-12)] {
+            let mut y = a.times(x.as_ref());
+            Numbers::new(&a, Kind::Definite, way, double).expect("definite").solve(y.as_mut());
+            let error = (&y - &x).norm_max();
+            assert!(error < limit, "{way} {double}: {error:e}");
+        }
+    }
+}
+
+#[test]
+fn what_cannot_be_factorised_is_told() {
+    let indefinite = Numbers::new(&cube(5, 2.0), Kind::Definite, Way::InCore, true);
+    assert!(matches!(indefinite, Err(LinalgError::NotPositiveDefinite { order: 125, .. })), "{indefinite:?}");
+    for (failure, words) in [
+        (Failure(-90, 0), "MUMPS_OOC_TMPDIR"),
+        (Failure(-13, -2000), "8.0 GB more of memory"),
+        (Failure(-9, 7), "free memory"),
+        (Failure(0, 0), "expected 5.5"),
+    ] {
+        let text = told(failure, 8, Way::OutOfCore).to_string();
+        assert!(text.contains("8 x 8") && text.contains(words), "{text}");
+    }
+}
+
+#[test]
+fn files_are_gone_with_the_factor() {
+    let folder = Folder::new().expect("a folder");
+    let path = std::path::PathBuf::from(std::str::from_utf8(folder.bytes()).expect("UTF-8"));
+    assert!(path.is_dir());
+    drop(folder);
+    assert!(!path.exists());
+}
+
+#[test]
+fn blocks_are_runs_of_one_pattern() {
+    // unknowns 0 and 1 of one node beside 2; a diagonal that is not stored
+    let a = SymmetricMatrix {
+        offsets: vec![0, 3, 5, 5],
+        rows: vec![0, 1, 2, 1, 2],
+        values: vec![2.0, 1.0, 1.0, 2.0, 1.0],
+        followers: None,
+    };
+    // the last column has no row below that the one before has not
+    assert_eq!(blocks(&a), [1, 4]);
+    let chain = SymmetricMatrix {
+        offsets: vec![0, 2, 4, 5],
+        rows: vec![0, 1, 1, 2, 2],
+        values: vec![2.0, -1.0, 2.0, -1.0, 2.0],
+        followers: None,
+    };
+    assert_eq!(blocks(&chain), [1, 2, 4]);
+}

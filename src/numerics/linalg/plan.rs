@@ -1,0 +1,135 @@
+//! Who factorises a matrix: our own factor where it fits into the memory; MUMPS, where the program is built with it, if it does
+//! not or if several processes compute together.
+
+use super::symbolic::{Symbolic, analysed};
+use super::{LinalgError, SymmetricMatrix};
+#[cfg(feature = "mumps")]
+use super::{
+    memory::{self, SMALL},
+    mumps::{self, Way},
+};
+use schemars::JsonSchema;
+use serde::Serialize;
+
+/// Who factorised in the place of our own factor.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, JsonSchema)]
+pub struct FactorChoice {
+    /// Library and how it keeps factors.
+    pub by: String,
+    /// Why.
+    pub why: String,
+}
+
+/// Who factorises all matrices of one pattern.
+#[derive(Debug)]
+pub(super) enum Plan {
+    /// Our own factor, with where its entries are.
+    Own(Symbolic),
+    /// MUMPS.
+    #[cfg(feature = "mumps")]
+    Mumps {
+        /// Number of rows.
+        order: usize,
+        /// How it keeps a factor in single precision.
+        way: Way,
+        /// Why not our own.
+        why: String,
+    },
+}
+
+/// Variable that says who factorises: `own`, `mumps`, `mumps-low-rank`, `mumps-out-of-core`.
+#[cfg(feature = "mumps")]
+const CHOICE: &str = "PLUMMER_FACTOR";
+
+/// Share of the memory that is free up to which a factor of low rank may take it: the iteration's vectors need the rest.
+#[cfg(feature = "mumps")]
+const SHARE: f64 = 0.5;
+
+/// Entries of a factor of low rank beside those of the whole one.
+#[cfg(feature = "mumps")]
+const COMPRESSED: f64 = 0.5;
+
+impl Plan {
+    /// Analyses the pattern of a matrix in the order in which it is factorised, and says who does it.
+    ///
+    /// # Errors
+    /// [`LinalgError::TooLarge`] for a factor that does not fit, unless MUMPS is there; [`LinalgError::Factorisation`] if memory
+    /// does not suffice for the analysis; [`LinalgError::Refused`] for a choice that is none.
+    pub(super) fn of(a: &SymmetricMatrix) -> Result<Self, LinalgError> {
+        #[cfg(feature = "mumps")]
+        return Self::chosen(a);
+        #[cfg(not(feature = "mumps"))]
+        analysed(a).map(Self::Own)
+    }
+
+    #[cfg(feature = "mumps")]
+    fn chosen(a: &SymmetricMatrix) -> Result<Self, LinalgError> {
+        let order = a.order();
+        let by_mumps = |way: Way, why: String| Ok(Self::Mumps { order, way, why });
+        let asked = std::env::var(CHOICE).unwrap_or_default();
+        let forced = || format!("{CHOICE}={asked} asks for it");
+        match asked.as_str() {
+            "own" => return analysed(a).map(Self::Own),
+            "mumps" => return by_mumps(Way::InCore, forced()),
+            "mumps-low-rank" => return by_mumps(Way::LowRank, forced()),
+            "mumps-out-of-core" => return by_mumps(Way::OutOfCore, forced()),
+            "" => {}
+            other => {
+                return Err(LinalgError::Refused(format!(
+                    "the variable {CHOICE} is \"{other}\"; expected own, mumps, mumps-low-rank or mumps-out-of-core"
+                )));
+            }
+        }
+        let ranks = mumps::ranks();
+        let own = match analysed(a) {
+            Err(LinalgError::TooLarge { entries, limit, .. }) => {
+                let free = memory::available().unwrap_or(u64::MAX) as f64 * ranks as f64;
+                let fits = COMPRESSED * 4.0 * (entries as f64) < SHARE * free;
+                let way = if fits { Way::LowRank } else { Way::OutOfCore };
+                return by_mumps(way, format!("the factor's {entries} entries do not fit: {limit}"));
+            }
+            own => own?,
+        };
+        if ranks > 1 && own.entries() > SMALL {
+            return by_mumps(Way::InCore, format!("{ranks} processes compute together"));
+        }
+        Ok(Self::Own(own))
+    }
+
+    /// Who factorises, if not our own factor.
+    pub(super) fn choice(&self) -> Option<FactorChoice> {
+        match self {
+            Self::Own(_) => None,
+            #[cfg(feature = "mumps")]
+            Self::Mumps { way, why, .. } => Some(FactorChoice { by: format!("MUMPS, {way}"), why: why.clone() }),
+        }
+    }
+
+    /// Number of rows.
+    pub(super) fn order(&self) -> usize {
+        match self {
+            Self::Own(symbolic) => symbolic.order(),
+            #[cfg(feature = "mumps")]
+            Self::Mumps { order, .. } => *order,
+        }
+    }
+
+    /// Where the entries of our own factor are.
+    #[cfg(test)]
+    pub(super) fn own(&self) -> &Symbolic {
+        match self {
+            Self::Own(symbolic) => symbolic,
+            #[cfg(feature = "mumps")]
+            Self::Mumps { .. } => panic!("a factor of our own was expected"),
+        }
+    }
+
+    /// Number of entries of a factor; those of MUMPS, which are not known, count as more than any.
+    pub(super) fn entries(&self) -> usize {
+        match self {
+            Self::Own(symbolic) => symbolic.entries(),
+            #[cfg(feature = "mumps")]
+            Self::Mumps { .. } => usize::MAX,
+        }
+    }
+}
