@@ -53,7 +53,18 @@ impl Method {
     ///
     /// What the system leaves out of its tangent is not seen.
     pub(crate) fn step_limit<S: SecondOrderSystem>(self, system: &mut S, state: &State) -> Option<StepLimit> {
-        self.limit_of(&mut Linearised::new(system, state))
+        self.limit_up_to(&mut Linearised::new(system, state), f64::INFINITY)
+    }
+
+    /// The same where it is below `longest` (s), which ends the search: of a longer one nothing is said.
+    pub(crate) fn step_limit_below<S: SecondOrderSystem>(
+        self,
+        system: &mut S,
+        state: &State,
+        longest: f64,
+    ) -> Option<StepLimit> {
+        let limit = self.limit_up_to(&mut Linearised::new(system, state), longest);
+        limit.filter(|limit| limit.step_s < longest)
     }
 
     /// The resonance of a step of length `h` (s) at a state, if small motions there grow by one.
@@ -69,6 +80,10 @@ impl Method {
 
     /// [`step_limit`](Self::step_limit) of a system that is linear already.
     pub(crate) fn limit_of(self, system: &mut Linearised) -> Option<StepLimit> {
+        self.limit_up_to(system, f64::INFINITY)
+    }
+
+    fn limit_up_to(self, system: &mut Linearised, longest: f64) -> Option<StepLimit> {
         if self.is_implicit() || matches!(self, Self::Dop853 { .. }) {
             return None;
         }
@@ -99,7 +114,7 @@ impl Method {
         while !unstable(system, grows) {
             stable = grows;
             grows *= RATIO;
-            if grows * fastest > LAST {
+            if grows * fastest > LAST || stable >= longest {
                 return None;
             }
         }

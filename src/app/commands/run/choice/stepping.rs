@@ -171,7 +171,7 @@ pub(crate) fn own_step(task: RunTask<'_>, model: &RunModel) -> Result<(f64, &'st
     };
     let limits = [
         (
-            stable_step(task, model, system),
+            stable_step(task, model, system, chosen.0),
             "in longer ones the contacts' small vibrations at rest grow up to the tolerance; halved where the tolerance asks for it",
         ),
         (
@@ -215,15 +215,16 @@ pub(crate) fn shorter(task: RunTask<'_>, model: &RunModel, error: f64, resolved:
 }
 
 /// The longest step of exponential-adams with a tolerance in which small motions about the equilibrium do not grow: the tolerance refers
-/// to the largest force, and would let them; the shorter of those at the start and under the heaviest load. None for other methods.
-fn stable_step(task: RunTask<'_>, model: &RunModel, mut system: CoupledSystem) -> Option<f64> {
+/// to the largest force, and would let them; the shorter of those at the start and under the heaviest load. None for other methods, and where
+/// it is not below `longest` (s).
+fn stable_step(task: RunTask<'_>, model: &RunModel, mut system: CoupledSystem, longest: f64) -> Option<f64> {
     let RunTask { scene, heaviest, .. } = task;
     let Method::ExponentialAdams { tolerance: Some(_) } = model.method else {
         return None;
     };
     let heaviest = heaviest.map(|(t, rest)| system.state_at(*t, rest, &scene.stage.modes));
     let states = [Some(scene.at_rest(&system)), heaviest].into_iter().flatten();
-    let limits = states.filter_map(|rest| model.method.step_limit(&mut system, &rest));
+    let limits = states.filter_map(|rest| model.method.step_limit_below(&mut system, &rest, longest / STABLE));
     let shortest = limits.map(|limit| limit.step_s).reduce(f64::min)?;
     Some(STABLE * shortest)
 }
