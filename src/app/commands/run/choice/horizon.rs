@@ -1,19 +1,38 @@
-//! How long a run's estimated error holds: its first milliseconds beside a finer run.
+//! What a run's estimated error covers: how long it holds, and how far small perturbations grow until then.
 //!
 //! Where balls strike, small differences grow until the signal is one of many that the same machine makes. The finer run of
 //! [`pilot`](super::pilot) has the error of modes and steps along the way: on `examples/scenes` it found that of a run with all modes within
 //! 20 %, window by window, until both part. What the finer run lacks as well, vectors of a condensed housing, is taken to grow as this does.
 
-use super::model_choice::{CONDENSATION, Measured, ModelChoice, SUPERELEMENT};
-use super::pilot::{LONG, SAFETY, Stepped, compared, held_s, long_begin, stretch_s};
+use super::growth::Growth;
+use super::model_choice::{CONDENSATION, Measured, ModelChoice, REST, SUPERELEMENT};
+use super::pilot::{LONG, SAFETY, Stepped, compared, held_s, long_begin, since_s, stretch_s};
+use super::plan::root_of_squares;
 use super::quantities::USUAL_BAND;
 use crate::app::case::{Case, RunCase, Transient};
 use crate::app::commands::run::Span;
 use crate::app::scene::Scene;
 use crate::report::significant;
+use schemars::JsonSchema;
+use serde::Serialize;
 
 /// How far is looked in units of the pilot's stretch: at first, and where the estimate holds so long.
 const LENGTHS: [f64; 2] = [3.0, LONG];
+
+/// Growth of a small perturbation above which balls leave the races that press them at rest: what only vibrates beats by a few times.
+const CALM: f64 = 10.0;
+
+/// What of a run its estimated error covers.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum Covered {
+    /// All of it, as far as was looked; no ball strikes later.
+    All,
+    /// Its beginning, or the stretch that was looked at.
+    Part,
+    /// None of it: the error is as large as the signals within the first stretch.
+    Nothing,
+}
 
 /// How long an estimated error was seen to hold, s from [`from_s`](Self::from_s).
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -30,42 +49,84 @@ pub struct Horizon {
     pub run_s: f64,
     /// Whether balls strike, so that differences grow beyond any estimate.
     pub strikes: bool,
+    /// How many times a small perturbation of the start has grown until then and until `looked_s`; `None` where it cannot be stepped.
+    pub growth: Option<[f64; 2]>,
 }
 
 impl Horizon {
-    /// Steps the beginning of a run by its model and by a finer one, where balls strike; else the estimate is from such a comparison already. `None` for a
-    /// model whose error of modes and steps is not measured, or a stretch that cannot be stepped.
-    pub fn of(run: RunCase<'_>, scene: &Scene, choice: &ModelChoice) -> Option<Self> {
+    /// Steps the beginning of a run by its model and by a finer one, where balls strike; else the estimate is from such a comparison already.
+    /// An estimate that the first stretch passes is raised to what that shows, or taken away where it is as large as the signals.
+    /// `None` for a model whose error of modes and steps is not measured, or a stretch that cannot be stepped.
+    pub fn of(run: RunCase<'_>, scene: &Scene, choice: &mut ModelChoice) -> Option<Self> {
         Self::of_any(run.case, run.transient, scene, choice)
     }
 
     /// The same of any scene.
-    pub(crate) fn of_any(case: &Case, asked: &Transient, scene: &impl Stepped, choice: &ModelChoice) -> Option<Self> {
+    pub(crate) fn of_any(
+        case: &Case,
+        asked: &Transient,
+        scene: &impl Stepped,
+        choice: &mut ModelChoice,
+    ) -> Option<Self> {
         let (start_s, run_s) = (asked.start, asked.end - asked.start);
-        if choice.growth <= 1.0 {
-            let Measured { from_s, length_s: looked_s, .. } = choice.measured?;
-            return Some(Self { from_s, held_s: looked_s, looked_s, start_s, run_s, strikes: false });
-        }
         let band_hz = case.band_hz().map_or(USUAL_BAND, |band| band[1]);
-        let finer = choice.measured?.finer;
-        let most = choice.share_of_steps()? / SAFETY;
+        let Measured { from_s, length_s: looked_s, finer, .. } = choice.measured?;
+        let model = choice.model;
+        let span = |duration| Span { duration, output_hz: asked.output_hz };
+        let growth = |from_s, length| Growth::of(scene, &model, span(length), from_s, band_hz).ok();
+        if choice.growth <= 1.0 {
+            let growth = growth(from_s, looked_s).map(|growth| [growth.until(looked_s); 2]);
+            if growth.is_none_or(|[grown, _]| grown <= CALM) {
+                return Some(Self { from_s, held_s: looked_s, looked_s, start_s, run_s, strikes: false, growth });
+            }
+        }
         let first_s = stretch_s(asked, band_hz);
         let from_s = long_begin(asked, scene, LENGTHS[1] * first_s);
-        let mut horizon = None;
+        let mut horizon: Option<Self> = None;
         for length in LENGTHS {
             let looked_s = (length * first_s).min(run_s);
-            let span = Span { duration: looked_s, output_hz: asked.output_hz };
-            let models = [&choice.model, &finer];
-            let Ok(signals) = compared(scene, models, span, from_s, band_hz) else {
+            let Ok(signals) = compared(scene, [&model, &finer], span(looked_s), from_s, band_hz) else {
                 break;
             };
-            let held_s = held_s(&signals, most, first_s);
-            horizon = Some(Self { from_s, start_s, held_s: held_s.min(looked_s), looked_s, run_s, strikes: true });
+            let held = |choice: &ModelChoice| {
+                let most = choice.share_of_steps()? / SAFETY;
+                Some(held_s(&signals, most, first_s).min(looked_s))
+            };
+            let mut held_s = held(choice)?;
+            let loud = signals[1].iter().any(|finer| finer.rms() > REST);
+            if held_s < first_s.min(looked_s) && loud {
+                choice.raise(SAFETY * since_s(&signals, first_s), first_s);
+                held_s = held(choice).unwrap_or(0.0);
+            }
+            horizon = Some(Self { from_s, start_s, held_s, looked_s, run_s, strikes: true, growth: None });
             if held_s < looked_s || looked_s >= run_s {
                 break;
             }
         }
-        horizon
+        let found = horizon?;
+        let growth = growth(from_s, found.looked_s);
+        let growth = growth.map(|growth| [found.held_s, found.looked_s].map(|time_s| growth.until(time_s)));
+        Some(Self { growth, ..found })
+    }
+
+    /// What of the run the estimate covers.
+    #[must_use]
+    pub fn covers(&self) -> Covered {
+        match (self.passed(), self.looked_s < self.run_s && self.strikes) {
+            (true, _) if self.held_s <= 0.0 => Covered::Nothing,
+            (false, false) => Covered::All,
+            _ => Covered::Part,
+        }
+    }
+
+    /// That the estimate covers part of the run alone, if so.
+    pub(crate) fn warning(&self, estimated_error: Option<f64>) -> Option<String> {
+        let error = estimated_error.filter(|_| self.covers() != Covered::All)?;
+        Some(format!(
+            "the estimated error of {} covers part of the run alone: {}",
+            significant(error, 2),
+            self.sentence()
+        ))
     }
 
     /// Whether the error was seen to pass the estimate.
@@ -87,16 +148,28 @@ impl Horizon {
             true => format!("for {held} ms from {} ms on", precise(self.from_s)),
             false => format!("in the first {held} ms of {whole}"),
         };
+        let grown = self.growth.filter(|_| self.strikes).map_or(String::new(), |[held, looked]| {
+            let times = |growth| significant(growth, 2);
+            match self.passed() {
+                true => format!(
+                    " (until then a small perturbation of the start grows {} times, {} times until {} ms)",
+                    times(held),
+                    times(looked),
+                    ms(self.looked_s)
+                ),
+                false => format!(" (until then a small perturbation of the start grows {} times)", times(held)),
+            }
+        });
         match (self.passed(), self.looked_s < self.run_s) {
             (true, _) if self.held_s <= 0.0 => {
                 format!("passed within {} ms; then {later}", ms(self.looked_s))
             }
-            (true, _) => format!("{place}; after that, {later}"),
+            (true, _) => format!("{place}{grown}; after that, {later}"),
             (false, true) if self.strikes => {
-                format!("{place}, beyond which it was not checked; at some later time, {later}")
+                format!("{place}{grown}, beyond which it was not checked; at some later time, {later}")
             }
             (false, true) => format!("{place} at least"),
-            (false, false) => "over the whole run".to_owned(),
+            (false, false) => format!("over the whole run{grown}"),
         }
     }
 }
@@ -117,6 +190,22 @@ impl ModelChoice {
         }
         Some(together * measured / measured.hypot(unseen))
     }
+
+    /// Takes in that modes and steps err by so much, relative, over the first `stretch_s` of the run.
+    fn raise(&mut self, error: f64, stretch_s: f64) {
+        let method = self.parts.iter_mut().find(|part| part.what == "method");
+        let (Some(method), Some(measured)) = (method, &mut self.measured) else { return };
+        let stretch = format!("; in the first {} ms of the run a finer one", significant(1e3 * stretch_s, 2));
+        if error < 1.0 {
+            measured.error = measured.error.max(error / self.growth);
+            method.estimated_error = method.estimated_error.map(|own| own.max(error));
+            method.why += &format!("{stretch} showed more");
+        } else {
+            method.estimated_error = None;
+            method.why += &format!("{stretch} parts from it");
+        }
+        self.estimated_error = root_of_squares(&self.parts);
+    }
 }
 
 #[cfg(test)]
@@ -129,8 +218,8 @@ mod tests {
         let case = Case::example(example, set);
         let run = case.for_run().unwrap();
         let scene = Scene::build(run, &Unwatched).unwrap();
-        let choice = ModelChoice::of_case(run, &scene).unwrap();
-        Horizon::of(run, &scene, &choice).unwrap()
+        let mut choice = ModelChoice::of_case(run, &scene).unwrap();
+        Horizon::of(run, &scene, &mut choice).unwrap()
     }
 
     /// Against runs with all modes in equal steps of 25 ns, the error since the start passes the estimate of 0.0037 after 5.6 ms.

@@ -1,5 +1,6 @@
 //! How much of a scene a run models, and in which steps.
 
+pub(crate) mod growth;
 pub(crate) mod horizon;
 pub(crate) mod in_space;
 pub(crate) mod loaded_errors;
@@ -12,5 +13,5 @@ pub(crate) mod stepping;
 #[cfg(test)]
 mod tests;
 
-pub use horizon::Horizon;
+pub use horizon::{Covered, Horizon};
 pub use model_choice::{ChosenPart, Measured, ModelChoice};

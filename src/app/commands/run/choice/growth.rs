@@ -1,0 +1,145 @@
+//! How small perturbations of a start grow along a run. They do so in every model of it, and whatever a model errs by grows as they do.
+
+use super::pilot::{self, SHORTER, Stepped};
+use crate::app::commands::run::Span;
+use crate::app::scene::RunModel;
+use crate::numerics::ode::{Method, State};
+use crate::numerics::series::TimeSeries;
+
+/// Size of the perturbation, relative: far above round-off, far below what changes how it grows.
+const SIZE: f64 = 1e-9;
+
+/// Periods of the band's highest frequency in a window.
+const PERIODS: f64 = 10.0;
+
+/// The distance of two runs whose starts differ by a small perturbation, in windows of equal length: the root mean square in the band of
+/// the sensor whose distance grows most.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct Growth {
+    window_s: f64,
+    /// Of each window its distance over that of the first one.
+    by_window: Vec<f64>,
+}
+
+impl Growth {
+    /// Over a stretch that begins (s) at rest. Both runs have `model` in equal steps: a tolerance would take other steps in one than in the other.
+    ///
+    /// # Errors
+    /// Why one of them cannot be stepped.
+    pub(crate) fn of(
+        scene: &impl Stepped,
+        model: &RunModel,
+        span: Span,
+        begin: f64,
+        band_hz: f64,
+    ) -> Result<Self, String> {
+        let mut model = *model;
+        if let Method::ExponentialAdams { tolerance: Some(_) } | Method::Dop853 { .. } = model.method {
+            model.method = Method::ExponentialAdams { tolerance: None };
+            model.step *= SHORTER;
+        }
+        let signals = |size| pilot::stretch(scene, &model, span, [begin, size], band_hz);
+        let (plain, perturbed) = rayon::join(|| signals(0.0), || signals(SIZE));
+        let (plain, perturbed) = (plain?, perturbed?);
+        let sensors = plain.iter().zip(&perturbed);
+        let window_s = PERIODS / band_hz;
+        let mut by_window = Vec::new();
+        for (plain, perturbed) in sensors {
+            for (number, found) in relative_to_first(plain, perturbed, window_s).into_iter().enumerate() {
+                match by_window.get_mut(number) {
+                    None => by_window.push(found),
+                    Some(most) => *most = f64::max(*most, found),
+                }
+            }
+        }
+        Ok(Self { window_s, by_window })
+    }
+
+    /// How many times it has grown at most until a time since the begin, s; 1 where it shrinks.
+    pub(crate) fn until(&self, time_s: f64) -> f64 {
+        let windows = (time_s / self.window_s).ceil().max(1.0) as usize;
+        self.by_window.iter().take(windows).copied().fold(1.0, f64::max)
+    }
+}
+
+/// The distance of two series in each window over that in the first where there is one.
+fn relative_to_first(a: &TimeSeries, b: &TimeSeries, window_s: f64) -> Vec<f64> {
+    let length = ((window_s / a.step_s()).round() as usize).max(1);
+    let windows = a.values().chunks(length).zip(b.values().chunks(length));
+    let distance = |(a, b): (&[f64], &[f64])| {
+        let squares: f64 = a.iter().zip(b).map(|(a, b)| (a - b) * (a - b)).sum();
+        (squares / a.len() as f64).sqrt()
+    };
+    let distances: Vec<f64> = windows.map(distance).collect();
+    let first = distances.iter().copied().find(|distance| *distance > 0.0).unwrap_or(1.0);
+    distances.into_iter().map(|distance| distance / first).collect()
+}
+
+/// Changes every coordinate and velocity by a part of itself: `y (1 + size u)`, u evenly distributed in -1 to 1 and
+/// independent, from a generator begun with `seed` and the number of the run.
+pub(crate) fn perturb(state: &mut State, size: f64, seed: u64, run: usize) {
+    let mut random = Random::new(seed, run as u64);
+    for value in state.y.iter_mut().chain(&mut state.v) {
+        *value *= 1.0 + size * random.between_minus_one_and_one();
+    }
+}
+
+/// SplitMix64 (Steele, Lea and Flood 2014): every seed gives a good sequence, and runs need no order.
+struct Random {
+    state: u64,
+}
+
+impl Random {
+    fn new(seed: u64, run: u64) -> Self {
+        let mut seeded = Self { state: seed };
+        let begin = seeded.next();
+        let mut random = Self { state: begin ^ run.wrapping_mul(0x2545_f491_4f6c_dd1d) };
+        random.next();
+        random
+    }
+
+    fn next(&mut self) -> u64 {
+        self.state = self.state.wrapping_add(0x9e37_79b9_7f4a_7c15);
+        let mut z = self.state;
+        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+        z ^ (z >> 31)
+    }
+
+    fn between_minus_one_and_one(&mut self) -> f64 {
+        // 53 bits: every double in [0, 1) that is a multiple of 2^-53
+        let unit = (self.next() >> 11) as f64 / (1_u64 << 53) as f64;
+        2.0 * unit - 1.0
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn perturbed(size: f64, seed: u64, run: usize) -> State {
+        let mut state = State { t: 1.0, y: vec![2.0; 500], v: vec![-3.0; 500] };
+        perturb(&mut state, size, seed, run);
+        state
+    }
+
+    #[test]
+    fn changes_are_relative_even_and_their_own() {
+        let state = perturbed(1e-3, 1, 0);
+        let parts = |values: &[f64], of: f64| -> Vec<f64> { values.iter().map(|v| (v / of - 1.0) / 1e-3).collect() };
+        let changes = [parts(&state.y, 2.0), parts(&state.v, -3.0)].concat();
+        assert!(changes.iter().all(|u| u.abs() <= 1.0 + 1e-9));
+        let mean = changes.iter().sum::<f64>() / 1000.0;
+        let square = changes.iter().map(|u| u * u).sum::<f64>() / 1000.0;
+        // of 1000 even numbers: 0 and 1/3, within four standard errors, 0.018 and 0.0094
+        assert!(mean.abs() < 0.073, "{mean}");
+        assert!((square - 1.0 / 3.0).abs() < 0.038, "{square}");
+    }
+
+    #[test]
+    fn the_same_numbers_give_the_same_state_and_others_another() {
+        assert_eq!(perturbed(1e-3, 1, 5), perturbed(1e-3, 1, 5));
+        assert_ne!(perturbed(1e-3, 1, 5), perturbed(1e-3, 1, 6));
+        assert_ne!(perturbed(1e-3, 1, 5), perturbed(1e-3, 2, 5));
+    }
+}
