@@ -235,7 +235,7 @@ impl<R: Recording> RunResult<R> {
                 why: &self.choice.parts,
             },
             estimated_error: self.choice.estimated_error,
-            estimate_covers: self.horizon.map(|horizon| horizon.covers()),
+            estimate_covers: self.horizon.map(|horizon| horizon.covers(self.choice.estimated_error)),
             estimate_held_s: self.horizon.map(|horizon| horizon.held_s),
             estimate_from_s: self.horizon.map(|horizon| horizon.from_s),
             estimate_looked_s: self.horizon.map(|horizon| horizon.looked_s),

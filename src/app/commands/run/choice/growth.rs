@@ -55,6 +55,12 @@ impl Growth {
         Ok(Self { window_s, by_window })
     }
 
+    /// Until when it grows at most so many times, s since the begin; infinite where it never grows more.
+    pub(crate) fn time_s(&self, times: f64) -> f64 {
+        let windows = self.by_window.iter().position(|found| *found > times);
+        windows.map_or(f64::INFINITY, |windows| windows as f64 * self.window_s)
+    }
+
     /// How many times it has grown at most until a time since the begin, s; 1 where it shrinks.
     pub(crate) fn until(&self, time_s: f64) -> f64 {
         let windows = (time_s / self.window_s).ceil().max(1.0) as usize;
@@ -134,6 +140,23 @@ mod tests {
         // of 1000 even numbers: 0 and 1/3, within four standard errors, 0.018 and 0.0094
         assert!(mean.abs() < 0.073, "{mean}");
         assert!((square - 1.0 / 3.0).abs() < 0.038, "{square}");
+    }
+
+    /// A distance that doubles from window to window: 2 to the power 3 is passed in the fifth.
+    #[test]
+    fn growth_is_that_of_the_distance_from_the_first_window_on() {
+        let series = |size: f64| {
+            let values = (0..80).map(|sample| 1.0 + size * f64::from(1 << (sample / 10)));
+            TimeSeries::new(2.3, 1e-4, "m/s^2", values.collect()).unwrap()
+        };
+        let by_window = relative_to_first(&series(0.0), &series(1e-9), 1e-3);
+        let growth = Growth { window_s: 1e-3, by_window };
+        // but for the rounding of 1e-9 beside 1
+        assert!((growth.until(3.5e-3) / 8.0 - 1.0).abs() < 1e-5, "{growth:?}");
+        assert!((growth.time_s(9.0) - 4e-3).abs() < 1e-12, "{growth:?}");
+        assert!(growth.time_s(1e3).is_infinite());
+        let still = Growth { window_s: 1e-3, by_window: relative_to_first(&series(0.0), &series(0.0), 1e-3) };
+        assert!((still.until(1.0) - 1.0).abs() < 1e-12, "{still:?}");
     }
 
     #[test]

@@ -6,7 +6,7 @@
 
 use super::growth::Growth;
 use super::model_choice::{CONDENSATION, Measured, ModelChoice, REST, SUPERELEMENT};
-use super::pilot::{LONG, SAFETY, Stepped, compared, held_s, long_begin, since_s, stretch_s};
+use super::pilot::{LONG, SAFETY, Stepped, compared, held_s, long_begin, stretch_s, worst_since};
 use super::plan::root_of_squares;
 use super::quantities::USUAL_BAND;
 use crate::app::case::{Case, RunCase, Transient};
@@ -19,8 +19,9 @@ use serde::Serialize;
 /// How far is looked in units of the pilot's stretch: at first, and where the estimate holds so long.
 const LENGTHS: [f64; 2] = [3.0, LONG];
 
-/// Growth of a small perturbation above which balls leave the races that press them at rest: what only vibrates beats by a few times.
-const CALM: f64 = 10.0;
+/// Growth of a small perturbation up to which an estimate covers a run at least. Where balls are pressed at rest, more says that they leave the
+/// races: what only vibrates beats by a few times.
+const COVERED: f64 = 10.0;
 
 /// What of a run its estimated error covers.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, JsonSchema)]
@@ -76,13 +77,16 @@ impl Horizon {
         let growth = |from_s, length| Growth::of(scene, &model, span(length), from_s, band_hz).ok();
         if choice.growth <= 1.0 {
             let growth = growth(from_s, looked_s).map(|growth| [growth.until(looked_s); 2]);
-            if growth.is_none_or(|[grown, _]| grown <= CALM) {
+            if growth.is_none_or(|[grown, _]| grown <= COVERED) {
                 return Some(Self { from_s, held_s: looked_s, looked_s, start_s, run_s, strikes: false, growth });
             }
         }
         let first_s = stretch_s(asked, band_hz);
+        let longest_s = (LENGTHS[1] * first_s).min(run_s);
         let from_s = long_begin(asked, scene, LENGTHS[1] * first_s);
-        let mut horizon: Option<Self> = None;
+        let growth = growth(from_s, longest_s);
+        let covered_s = growth.as_ref().map_or(0.0, |growth| growth.time_s(COVERED)).max(first_s);
+        let mut horizon = None;
         for length in LENGTHS {
             let looked_s = (length * first_s).min(run_s);
             let Ok(signals) = compared(scene, [&model, &finer], span(looked_s), from_s, band_hz) else {
@@ -94,25 +98,23 @@ impl Horizon {
             };
             let mut held_s = held(choice)?;
             let loud = signals[1].iter().any(|finer| finer.rms() > REST);
-            if held_s < first_s.min(looked_s) && loud {
-                choice.raise(SAFETY * since_s(&signals, first_s), first_s);
+            if held_s < covered_s.min(looked_s) && loud {
+                choice.raise([covered_s, first_s].map(|time_s| SAFETY * worst_since(&signals, [first_s, time_s])));
                 held_s = held(choice).unwrap_or(0.0);
             }
-            horizon = Some(Self { from_s, start_s, held_s, looked_s, run_s, strikes: true, growth: None });
+            let growth = growth.as_ref().map(|growth| [held_s, looked_s].map(|time_s| growth.until(time_s)));
+            horizon = Some(Self { from_s, start_s, held_s, looked_s, run_s, strikes: true, growth });
             if held_s < looked_s || looked_s >= run_s {
                 break;
             }
         }
-        let found = horizon?;
-        let growth = growth(from_s, found.looked_s);
-        let growth = growth.map(|growth| [found.held_s, found.looked_s].map(|time_s| growth.until(time_s)));
-        Some(Self { growth, ..found })
+        horizon
     }
 
-    /// What of the run the estimate covers.
-    #[must_use]
-    pub fn covers(&self) -> Covered {
+    /// What of the run an estimated error covers.
+    pub(crate) fn covers(&self, estimated_error: Option<f64>) -> Covered {
         match (self.passed(), self.looked_s < self.run_s && self.strikes) {
+            _ if estimated_error.is_none_or(|error| error >= 1.0) => Covered::Nothing,
             (true, _) if self.held_s <= 0.0 => Covered::Nothing,
             (false, false) => Covered::All,
             _ => Covered::Part,
@@ -121,7 +123,7 @@ impl Horizon {
 
     /// That the estimate covers part of the run alone, if so.
     pub(crate) fn warning(&self, estimated_error: Option<f64>) -> Option<String> {
-        let error = estimated_error.filter(|_| self.covers() != Covered::All)?;
+        let error = estimated_error.filter(|_| self.covers(estimated_error) == Covered::Part)?;
         Some(format!(
             "the estimated error of {} covers part of the run alone: {}",
             significant(error, 2),
@@ -191,19 +193,18 @@ impl ModelChoice {
         Some(together * measured / measured.hypot(unseen))
     }
 
-    /// Takes in that modes and steps err by so much, relative, over the first `stretch_s` of the run.
-    fn raise(&mut self, error: f64, stretch_s: f64) {
+    /// Takes in the largest of these errors of modes and steps, relative, that is smaller than the signals; takes the estimate away where none is.
+    fn raise(&mut self, errors: [f64; 2]) {
         let method = self.parts.iter_mut().find(|part| part.what == "method");
         let (Some(method), Some(measured)) = (method, &mut self.measured) else { return };
-        let stretch = format!("; in the first {} ms of the run a finer one", significant(1e3 * stretch_s, 2));
-        if error < 1.0 {
-            measured.error = measured.error.max(error / self.growth);
-            method.estimated_error = method.estimated_error.map(|own| own.max(error));
-            method.why += &format!("{stretch} showed more");
-        } else {
-            method.estimated_error = None;
-            method.why += &format!("{stretch} parts from it");
-        }
+        let known = errors.into_iter().filter(|error| *error < 1.0).reduce(f64::max);
+        let of_method = method.estimated_error.zip(known).map(|(own, error)| own.max(error));
+        method.estimated_error = of_method;
+        method.why += match known {
+            Some(_) => "; the run's beginning showed more beside a finer one",
+            None => "; a finer run parts from it at once",
+        };
+        measured.error = measured.error.max(known.unwrap_or(0.0) / self.growth);
         self.estimated_error = root_of_squares(&self.parts);
     }
 }
@@ -230,7 +231,41 @@ mod tests {
         assert!((3e-3..5.6e-3).contains(&horizon.held_s), "{horizon:?}");
         assert!(horizon.passed() && horizon.strikes);
         let sentence = horizon.sentence();
-        assert!(sentence.contains(" ms of 20; after that, the waveform"), "{sentence}");
+        assert!(sentence.contains(" ms of 20 (until then a small perturbation of the start grows "), "{sentence}");
+        assert!(sentence.contains("); after that, the waveform"), "{sentence}");
+        let [held, looked] = horizon.growth.unwrap();
+        assert!(held >= COVERED && looked > held, "{horizon:?}");
+        assert_eq!(horizon.covers(Some(0.0037)), Covered::Part);
+        assert!(
+            horizon.warning(Some(0.0037)).is_some_and(|warning| warning.starts_with("the estimated error of 0.0037"))
+        );
+    }
+
+    /// An estimate that the beginning passes before a perturbation has grown tenfold is raised until it covers that, and one that it passes at once is none.
+    #[test]
+    fn an_estimate_covers_tenfold_growth_or_is_none() {
+        let case = Case::example("scenes/healthy", &["transient.end=6e-3", "analysis.envelope=[]"]);
+        let run = case.for_run().unwrap();
+        let scene = Scene::build(run, &Unwatched).unwrap();
+        let mut choice = ModelChoice::of_case(run, &scene).unwrap();
+        let honest = choice.estimated_error.unwrap();
+        let small = |choice: &mut ModelChoice| {
+            for part in &mut choice.parts {
+                part.estimated_error = part.estimated_error.map(|error| 1e-3 * error);
+            }
+            let measured = choice.measured.as_mut().unwrap();
+            measured.error *= 1e-3;
+            choice.estimated_error = root_of_squares(&choice.parts);
+        };
+        small(&mut choice);
+        let horizon = Horizon::of(run, &scene, &mut choice).unwrap();
+        let raised = choice.estimated_error.unwrap();
+        println!("{honest} {raised} {horizon:?}");
+        assert!(raised > 0.1 * honest && horizon.growth.unwrap()[0] > 0.9 * COVERED, "{raised} {horizon:?}");
+        choice.raise([1.5, 1.0]);
+        assert_eq!(choice.estimated_error, None);
+        let part = choice.parts.iter().find(|part| part.what == "method").unwrap();
+        assert!(part.why.ends_with("parts from it at once"), "{}", part.why);
     }
 
     /// The same references: 0.015 is passed after 2.5 ms, where the first ball that the preload does not hold comes back.
@@ -247,7 +282,9 @@ mod tests {
         assert_eq!(horizon.sentence(), "over the whole run");
         let longer = Horizon { run_s: 1.0, ..horizon };
         assert!(longer.sentence().contains("at least"), "{longer:?}");
-        let short = Horizon { start_s: 0.0, from_s: 2.58, held_s: 1e-3, strikes: true, ..longer };
+        assert_eq!((horizon.covers(Some(0.01)), horizon.warning(Some(0.01))), (Covered::All, None));
+        assert_eq!([None, Some(1.0)].map(|error| horizon.covers(error)), [Covered::Nothing; 2]);
+        let short = Horizon { start_s: 0.0, from_s: 2.58, held_s: 1e-3, strikes: true, growth: None, ..longer };
         assert!(short.sentence().starts_with("for 1.0 ms from 2580 ms on; after that"), "{}", short.sentence());
     }
 

@@ -257,13 +257,23 @@ pub(crate) fn held_s([run, finer]: &[Vec<TimeSeries>; 2], most: f64, first_s: f6
     sensors.fold(f64::INFINITY, f64::min)
 }
 
-/// The largest of the sensors' differences since the start up to a time (s), relative.
-pub(crate) fn since_s([run, finer]: &[Vec<TimeSeries>; 2], time_s: f64) -> f64 {
+/// The largest of the sensors' differences since the start at any of the instants between two times (s), relative.
+pub(crate) fn worst_since([run, finer]: &[Vec<TimeSeries>; 2], [from_s, to_s]: [f64; 2]) -> f64 {
     let of_sensor = |(run, finer): (&TimeSeries, &TimeSeries)| {
-        let samples = (time_s / run.step_s()).round() as usize + 1;
-        let pairs = run.values().iter().zip(finer.values()).take(samples);
-        let [apart, size] = pairs.fold([0.0; 2], |[apart, size], (a, b)| [apart + (a - b) * (a - b), size + b * b]);
-        (apart / f64::max(size, f64::MIN_POSITIVE)).sqrt()
+        let (mut apart, mut size, mut most) = (0.0, 0.0, 0.0_f64);
+        for (number, (a, b)) in (1..).zip(run.values().iter().zip(finer.values())) {
+            // half a sample for round-off
+            let time_s = (f64::from(number) + 0.5) * run.step_s();
+            if time_s > to_s + run.step_s() {
+                break;
+            }
+            apart += (a - b) * (a - b);
+            size += b * b;
+            if time_s >= from_s && size > 0.0 {
+                most = most.max((apart / size).sqrt());
+            }
+        }
+        most
     };
     run.iter().zip(finer).map(of_sensor).fold(0.0, f64::max)
 }
