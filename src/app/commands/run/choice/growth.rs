@@ -9,6 +9,9 @@ use crate::numerics::series::TimeSeries;
 /// Size of the perturbation, relative: far above round-off, far below what changes how it grows.
 const SIZE: f64 = 1e-9;
 
+/// How often equal steps are halved that impacts make unstable.
+const HALVINGS: u32 = 3;
+
 /// Periods of the band's highest frequency in a window.
 const PERIODS: f64 = 10.0;
 
@@ -33,14 +36,24 @@ impl Growth {
         begin: f64,
         band_hz: f64,
     ) -> Result<Self, String> {
+        let by_tolerance =
+            matches!(model.method, Method::ExponentialAdams { tolerance: Some(_) } | Method::Dop853 { .. });
         let mut model = *model;
-        if let Method::ExponentialAdams { tolerance: Some(_) } | Method::Dop853 { .. } = model.method {
+        let mut halvings = 0;
+        if by_tolerance {
             model.method = Method::ExponentialAdams { tolerance: None };
-            model.step *= SHORTER;
+            (model.step, halvings) = (SHORTER * model.step, HALVINGS);
         }
-        let signals = |size| pilot::stretch(scene, &model, span, [begin, size], band_hz);
-        let (plain, perturbed) = rayon::join(|| signals(0.0), || signals(SIZE));
-        let (plain, perturbed) = (plain?, perturbed?);
+        let both = loop {
+            let signals = |size| pilot::stretch(scene, &model, span, [begin, size], band_hz);
+            let both = rayon::join(|| signals(0.0), || signals(SIZE));
+            if halvings == 0 || both.0.is_ok() && both.1.is_ok() {
+                break both;
+            }
+            halvings -= 1;
+            model.step *= 0.5;
+        };
+        let (plain, perturbed) = (both.0?, both.1?);
         let sensors = plain.iter().zip(&perturbed);
         let window_s = PERIODS / band_hz;
         let mut by_window = Vec::new();

@@ -121,13 +121,23 @@ impl Horizon {
         }
     }
 
-    /// That the estimate covers part of the run alone, if so.
+    /// That an estimated error covers part of the run alone, if so, and how far a small perturbation grows until then.
     pub(crate) fn warning(&self, estimated_error: Option<f64>) -> Option<String> {
         let error = estimated_error.filter(|_| self.covers(estimated_error) == Covered::Part)?;
+        let ms = |seconds: f64| format!("{} ms", significant(1e3 * seconds, 3));
+        let from = if self.from_s > self.start_s { format!(" from {} on", ms(self.from_s)) } else { String::new() };
+        let grown = self.growth.map_or(String::new(), |[held, looked]| {
+            let later = match self.passed() {
+                true => format!(", {} times in {}", significant(looked, 2), ms(self.looked_s)),
+                false => String::new(),
+            };
+            format!(", in which a small perturbation of the start grows {} times{later}", significant(held, 2))
+        });
         Some(format!(
-            "the estimated error of {} covers part of the run alone: {}",
+            "the estimated error of {} covers {}{from} of the run's {}{grown}: beyond, compare spectra and verdicts instead of samples",
             significant(error, 2),
-            self.sentence()
+            ms(self.held_s),
+            ms(self.run_s)
         ))
     }
 
@@ -150,28 +160,16 @@ impl Horizon {
             true => format!("for {held} ms from {} ms on", precise(self.from_s)),
             false => format!("in the first {held} ms of {whole}"),
         };
-        let grown = self.growth.filter(|_| self.strikes).map_or(String::new(), |[held, looked]| {
-            let times = |growth| significant(growth, 2);
-            match self.passed() {
-                true => format!(
-                    " (until then a small perturbation of the start grows {} times, {} times until {} ms)",
-                    times(held),
-                    times(looked),
-                    ms(self.looked_s)
-                ),
-                false => format!(" (until then a small perturbation of the start grows {} times)", times(held)),
-            }
-        });
         match (self.passed(), self.looked_s < self.run_s) {
             (true, _) if self.held_s <= 0.0 => {
                 format!("passed within {} ms; then {later}", ms(self.looked_s))
             }
-            (true, _) => format!("{place}{grown}; after that, {later}"),
+            (true, _) => format!("{place}; after that, {later}"),
             (false, true) if self.strikes => {
-                format!("{place}{grown}, beyond which it was not checked; at some later time, {later}")
+                format!("{place}, beyond which it was not checked; at some later time, {later}")
             }
             (false, true) => format!("{place} at least"),
-            (false, false) => format!("over the whole run{grown}"),
+            (false, false) => "over the whole run".to_owned(),
         }
     }
 }
@@ -231,10 +229,9 @@ mod tests {
         assert!((3e-3..5.6e-3).contains(&horizon.held_s), "{horizon:?}");
         assert!(horizon.passed() && horizon.strikes);
         let sentence = horizon.sentence();
-        assert!(sentence.contains(" ms of 20 (until then a small perturbation of the start grows "), "{sentence}");
-        assert!(sentence.contains("); after that, the waveform"), "{sentence}");
+        assert!(sentence.contains(" ms of 20; after that, the waveform"), "{sentence}");
         let [held, looked] = horizon.growth.unwrap();
-        assert!(held >= COVERED && looked > held, "{horizon:?}");
+        assert!(held < COVERED && looked > COVERED, "{horizon:?}");
         assert_eq!(horizon.covers(Some(0.0037)), Covered::Part);
         assert!(
             horizon.warning(Some(0.0037)).is_some_and(|warning| warning.starts_with("the estimated error of 0.0037"))
@@ -260,8 +257,14 @@ mod tests {
         small(&mut choice);
         let horizon = Horizon::of(run, &scene, &mut choice).unwrap();
         let raised = choice.estimated_error.unwrap();
-        println!("{honest} {raised} {horizon:?}");
-        assert!(raised > 0.1 * honest && horizon.growth.unwrap()[0] > 0.9 * COVERED, "{raised} {horizon:?}");
+        let span = Span { duration: 6e-3, output_hz: run.transient.output_hz };
+        let growth = Growth::of(&scene, &choice.model, span, 0.0, 40e3).unwrap();
+        println!("{honest} {raised} {horizon:?} {growth:?}");
+        assert!((0.1..2.0).contains(&(raised / honest)), "{raised} {honest}");
+        assert!(
+            (2e-3..6e-3).contains(&growth.time_s(COVERED)) && horizon.held_s >= growth.time_s(COVERED),
+            "{horizon:?}"
+        );
         choice.raise([1.5, 1.0]);
         assert_eq!(choice.estimated_error, None);
         let part = choice.parts.iter().find(|part| part.what == "method").unwrap();
@@ -284,7 +287,7 @@ mod tests {
         assert!(longer.sentence().contains("at least"), "{longer:?}");
         assert_eq!((horizon.covers(Some(0.01)), horizon.warning(Some(0.01))), (Covered::All, None));
         assert_eq!([None, Some(1.0)].map(|error| horizon.covers(error)), [Covered::Nothing; 2]);
-        let short = Horizon { start_s: 0.0, from_s: 2.58, held_s: 1e-3, strikes: true, growth: None, ..longer };
+        let short = Horizon { start_s: 0.0, from_s: 2.58, held_s: 1e-3, strikes: true, ..longer };
         assert!(short.sentence().starts_with("for 1.0 ms from 2580 ms on; after that"), "{}", short.sentence());
     }
 
