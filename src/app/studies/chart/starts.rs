@@ -5,7 +5,7 @@ use super::budget::Deadline;
 use super::scene::{ChartScene, Ready};
 use super::trace::{Failure, FailureKind};
 use crate::app::case;
-use crate::app::commands::run::choice::growth::perturb;
+use crate::app::commands::run::choice::perturbation::perturb;
 use crate::app::commands::run::{RunEnd, Simulation, Span};
 use crate::app::error::ComputeError;
 use crate::app::scene::RunModel;

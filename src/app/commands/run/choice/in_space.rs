@@ -3,8 +3,8 @@
 //! The linear estimates of the bearing in its plane know radial contacts alone. Here a stretch is stepped with some modes and with four times
 //! as many, and with static vectors that lack a sixteenth as much, until both agree within the target.
 
-use super::growth::perturb;
 use super::model_choice::{ChosenPart, ModelChoice};
+use super::perturbation::perturb;
 use super::pilot::{self, Stepped};
 use super::plan::{IMPACTS_GROWTH, together, vectors};
 use super::quantities::{Asked, IMPACT, USUAL_BAND, tangent};

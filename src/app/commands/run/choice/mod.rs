@@ -6,6 +6,7 @@ pub(crate) mod in_space;
 pub(crate) mod loaded_errors;
 pub(crate) mod model_choice;
 pub(crate) mod modes;
+pub(crate) mod perturbation;
 pub(crate) mod pilot;
 pub(crate) mod plan;
 pub(crate) mod quantities;

@@ -6,8 +6,8 @@
 //! error that falls as `tolerance^p` the two differ by `1 - 10^-p` of it. Equal steps of the exponential method are halved: its error falls with the
 //! square of the step where contacts are smooth, and with the step at least. A method without a tolerance is measured by one with it.
 
-use super::growth::perturb;
 use super::model_choice::Measured;
+use super::perturbation::perturb;
 use super::quantities::{Asked, RunTask, fastest_change};
 use super::stepping::{self, ADAMS_ORDER};
 use crate::app::case;

@@ -5,7 +5,7 @@
 use super::super::{Deadline, Effort};
 use crate::app::case;
 use crate::app::case::{Case, Defect, Load};
-use crate::app::commands::run::choice::growth::perturb;
+use crate::app::commands::run::choice::perturbation::perturb;
 use crate::app::error::ComputeError;
 use crate::app::scene::bearing::setup_of;
 use crate::app::scene::{RunModel, Scene};
