@@ -231,7 +231,7 @@ mod tests {
         let sentence = horizon.sentence();
         assert!(sentence.contains(" ms of 20; after that, the waveform"), "{sentence}");
         let [held, looked] = horizon.growth.unwrap();
-        assert!(held < COVERED && looked > COVERED, "{horizon:?}");
+        assert!(held > COVERED && looked > held, "{horizon:?}");
         assert_eq!(horizon.covers(Some(0.0037)), Covered::Part);
         assert!(
             horizon.warning(Some(0.0037)).is_some_and(|warning| warning.starts_with("the estimated error of 0.0037"))
