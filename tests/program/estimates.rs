@@ -226,9 +226,9 @@ fn row(number: u64) -> Result<Row, String> {
     let case = Case::load(&path, &drawn.keys).map_err(|error| error.to_string())?;
     let run = case.for_run().map_err(|error| error.to_string())?;
     let scene = Scene::build(run, &Unwatched).map_err(|error| error.to_string())?;
-    let choice = ModelChoice::of_case(run, &scene).map_err(|error| error.to_string())?;
+    let mut choice = ModelChoice::of_case(run, &scene).map_err(|error| error.to_string())?;
+    let held = Horizon::of(run, &scene, &mut choice).ok_or("the estimate's horizon was not measured")?;
     let estimate = choice.estimated_error.ok_or("no estimate")?;
-    let held = Horizon::of(run, &scene, &choice).ok_or("the estimate's horizon was not measured")?;
     let balls = scene.equilibrium.balls.iter();
     let pressed = { balls }.all(|ball| ball.inner > 0.0 && ball.outer > 0.0);
     let strikes = drawn.fault || !pressed;

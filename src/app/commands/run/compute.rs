@@ -103,10 +103,10 @@ fn run_in_plane<C: Checkpoints>(
     watch.stage("linearise");
     let loaded = LoadedModes::at(&scene.stage.structure, &scene.stage.modes, &scene.setup, &scene.equilibrium)?;
     watch.stage("choose the model");
-    let choice = ModelChoice::of_case(run, &scene)?;
+    let mut choice = ModelChoice::of_case(run, &scene)?;
     scene.setup.balls_inertia = choice.model.balls_inertia;
     watch.stage("compare with a finer run");
-    let horizon = Horizon::of_any(case, asked, &scene, &choice);
+    let horizon = Horizon::of_any(case, asked, &scene, &mut choice);
     watch.stage("step");
     let (span, energy) = (span(asked), takes_energy(case, asked, &choice));
     let fraction = |done| watch.fraction(done);
@@ -128,9 +128,9 @@ fn run_in_space<C: Checkpoints>(
     watch.stage("linearise");
     let loaded = scene.loaded_modes()?;
     watch.stage("choose the model");
-    let choice = ModelChoice::in_space(case, asked, &scene)?;
+    let mut choice = ModelChoice::in_space(case, asked, &scene)?;
     watch.stage("compare with a finer run");
-    let horizon = Horizon::of_any(case, asked, &scene, &choice);
+    let horizon = Horizon::of_any(case, asked, &scene, &mut choice);
     watch.stage("compare with sound bearings");
     let damage = scene.damage_shown(case, asked, &choice.model);
     watch.stage("step");
@@ -261,6 +261,7 @@ impl<R: Recording> RunResult<R> {
         simulation: Simulation<R>,
     ) -> Self {
         let mut warnings = [machine.doubts(), &choice.warnings()].concat();
+        warnings.extend(horizon.and_then(|horizon| horizon.warning(choice.estimated_error)));
         warnings.extend(energy_warning(simulation.energy.as_ref()));
         warnings.extend(machine.alike());
         let mut result = Self {

@@ -1,6 +1,6 @@
 //! What `run.json` says, and `plummer run --explain`.
 
-use super::choice::{ChosenPart, ModelChoice};
+use super::choice::{ChosenPart, Covered, ModelChoice};
 use super::{Machine, Recording, RunEnd, RunResult};
 use crate::app::commands::analyze::WindowAnalysis;
 use crate::app::commands::parts::SuperelementSummary;
@@ -34,14 +34,21 @@ pub struct RunSummary<'a> {
     pub status: String,
     /// What of the case was modelled.
     pub model: ModelSummary<'a>,
-    /// Estimated relative error in the band; `None` where a part of the model has no estimate.
+    /// Estimated relative error in the band, root mean square since the start, of what `estimate_covers` says; `None` where a part of the
+    /// model has no estimate, and where nearby solutions part at once.
     pub estimated_error: Option<f64>,
-    /// Until when the estimate was seen to hold, s; `None` where this was not measured, as of the next two.
+    /// What of the run the estimate covers; `None` where this was not measured, as of the next ones.
+    pub estimate_covers: Option<Covered>,
+    /// Until when the estimate was seen to hold, s.
     pub estimate_held_s: Option<f64>,
     /// Where it was looked at from, s.
     pub estimate_from_s: Option<f64>,
     /// Until when it was looked at, s.
     pub estimate_looked_s: Option<f64>,
+    /// How many times a small perturbation of the start grows until `estimate_held_s`.
+    pub estimate_held_growth: Option<f64>,
+    /// The same until `estimate_looked_s`.
+    pub estimate_looked_growth: Option<f64>,
     /// The energy balance; `None` where it was not asked for, where the equations have none, and after a blow-up.
     pub energy: Option<EnergySummary>,
     /// Where the run of a bearing in its plane began.
@@ -204,6 +211,7 @@ impl<R: Recording> RunResult<R> {
     pub(crate) fn summary(&self) -> RunSummary<'_> {
         let (stage, simulation) = (self.machine.stage(), &self.simulation);
         let in_plane = self.machine.in_plane();
+        let growth = self.horizon.and_then(|horizon| horizon.growth);
         RunSummary {
             method: simulation.method.name(),
             step_s: simulation.step_s(),
@@ -227,9 +235,12 @@ impl<R: Recording> RunResult<R> {
                 why: &self.choice.parts,
             },
             estimated_error: self.choice.estimated_error,
+            estimate_covers: self.horizon.map(|horizon| horizon.covers(self.choice.estimated_error)),
             estimate_held_s: self.horizon.map(|horizon| horizon.held_s),
             estimate_from_s: self.horizon.map(|horizon| horizon.from_s),
             estimate_looked_s: self.horizon.map(|horizon| horizon.looked_s),
+            estimate_held_growth: growth.map(|growth| growth[0]),
+            estimate_looked_growth: growth.map(|growth| growth[1]),
             energy: simulation.energy.map(EnergySummary::of),
             equilibrium: in_plane.map(|machine| EquilibriumSummary::of(&machine.scene.equilibrium)),
             other_equilibria: match &self.machine {

@@ -4,6 +4,7 @@
 //! as many, and with static vectors that lack a sixteenth as much, until both agree within the target.
 
 use super::model_choice::{ChosenPart, ModelChoice};
+use super::perturbation::perturb;
 use super::pilot::{self, Stepped};
 use super::plan::{IMPACTS_GROWTH, together, vectors};
 use super::quantities::{Asked, IMPACT, USUAL_BAND, tangent};
@@ -33,8 +34,14 @@ const SHARE: f64 = 0.8;
 const BALL_PHASE: f64 = 0.5;
 
 impl Stepped for MachineScene {
-    fn stepped_from_rest(&self, model: &RunModel, span: Span, begin: f64) -> Result<Simulation, ComputeError> {
-        let (system, state) = self.at_rest(model, begin)?;
+    fn stepped_from_rest(
+        &self,
+        model: &RunModel,
+        span: Span,
+        [begin, perturbation]: [f64; 2],
+    ) -> Result<Simulation, ComputeError> {
+        let (system, mut state) = self.at_rest(model, begin)?;
+        perturb(&mut state, perturbation, 1, 0);
         Simulation::kept(system, state, model, span, false, &mut InMemory, |_| ())
     }
 
@@ -92,7 +99,7 @@ impl MachineScene {
         let length = needed.max(pilot::stretch_s(asked, band_hz)).min(run_s);
         let begin = self.before_a_strike(asked, run_s - length);
         let span = Span { duration: length, output_hz: asked.output_hz };
-        let signals = |scene: &Self| pilot::stretch(scene, model, span, begin, band_hz).ok();
+        let signals = |scene: &Self| pilot::stretch(scene, model, span, [begin, 0.0], band_hz).ok();
         let is_long = needed <= LONGEST_PASS && needed <= run_s;
         let with = (self.setup.has_defects() && is_long).then(|| signals(self)).flatten();
         let share = |bearing: usize| {

@@ -11,7 +11,7 @@ pub(crate) const SUPERELEMENT: &str = "superelement";
 pub(crate) const CONDENSATION: &str = "condensation";
 
 /// Signals below this are taken for rest, m/s^2: no accelerometer for machines resolves less.
-const REST: f64 = 1e-3;
+pub(crate) const REST: f64 = 1e-3;
 
 /// A model, and why it is this one.
 #[derive(Debug, Clone, PartialEq)]

@@ -7,6 +7,7 @@
 //! square of the step where contacts are smooth, and with the step at least. A method without a tolerance is measured by one with it.
 
 use super::model_choice::Measured;
+use super::perturbation::perturb;
 use super::quantities::{Asked, RunTask, fastest_change};
 use super::stepping::{self, ADAMS_ORDER};
 use crate::app::case;
@@ -23,11 +24,11 @@ use crate::system::{Equilibrium, Formulation, ModeSelection, StaticCondition};
 
 /// A scene that is stepped from rest at any instant.
 pub(crate) trait Stepped: Sync {
-    /// The simulation of a stretch that begins (s) at rest.
+    /// The simulation of a stretch that begins (s) at rest, in a state that is perturbed by a part of itself.
     ///
     /// # Errors
     /// [`ComputeError`] where nothing rests then, or for a model that does not fit.
-    fn stepped_from_rest(&self, model: &RunModel, span: Span, begin: f64) -> Result<Simulation, ComputeError>;
+    fn stepped_from_rest(&self, model: &RunModel, span: Span, from: [f64; 2]) -> Result<Simulation, ComputeError>;
 
     /// An instant (s) of the highest speed that leaves `spare` seconds of the run before it at most, just before a ball strikes.
     fn before_a_strike(&self, asked: &case::Transient, spare: f64) -> f64;
@@ -37,11 +38,17 @@ pub(crate) trait Stepped: Sync {
 }
 
 impl Stepped for Scene {
-    fn stepped_from_rest(&self, model: &RunModel, span: Span, begin: f64) -> Result<Simulation, ComputeError> {
+    fn stepped_from_rest(
+        &self,
+        model: &RunModel,
+        span: Span,
+        [begin, perturbation]: [f64; 2],
+    ) -> Result<Simulation, ComputeError> {
         let condition = StaticCondition::at(&self.setup, begin);
         let rest = Equilibrium::find(&self.stage.structure, &self.setup, condition)?;
         let system = self.system(model)?;
-        let state = system.state_at(begin, &rest, &self.stage.modes);
+        let mut state = system.state_at(begin, &rest, &self.stage.modes);
+        perturb(&mut state, perturbation, 1, 0);
         Simulation::kept(system, state, model, span, false, &mut InMemory, |_| ())
     }
 
@@ -218,7 +225,7 @@ pub(crate) fn compared(
     if steps > MOST_STEPS {
         return Err(format!("it would take {} steps", significant(steps, 2)));
     }
-    let signals = |model: &RunModel| stretch(scene, model, span, begin, band_hz);
+    let signals = |model: &RunModel| stretch(scene, model, span, [begin, 0.0], band_hz);
     let (run, finer) = rayon::join(|| signals(model), || signals(finer));
     Ok([run?, finer?])
 }
@@ -250,15 +257,36 @@ pub(crate) fn held_s([run, finer]: &[Vec<TimeSeries>; 2], most: f64, first_s: f6
     sensors.fold(f64::INFINITY, f64::min)
 }
 
-/// The sensors' signals in the band over a stretch that begins at rest.
+/// The largest of the sensors' differences since the start at any of the instants between two times (s), relative.
+pub(crate) fn worst_since([run, finer]: &[Vec<TimeSeries>; 2], [from_s, to_s]: [f64; 2]) -> f64 {
+    let of_sensor = |(run, finer): (&TimeSeries, &TimeSeries)| {
+        let (mut apart, mut size, mut most) = (0.0, 0.0, 0.0_f64);
+        for (number, (a, b)) in (1..).zip(run.values().iter().zip(finer.values())) {
+            // half a sample for round-off
+            let time_s = (f64::from(number) + 0.5) * run.step_s();
+            if time_s > to_s + run.step_s() {
+                break;
+            }
+            apart += (a - b) * (a - b);
+            size += b * b;
+            if time_s >= from_s && size > 0.0 {
+                most = most.max((apart / size).sqrt());
+            }
+        }
+        most
+    };
+    run.iter().zip(finer).map(of_sensor).fold(0.0, f64::max)
+}
+
+/// The sensors' signals in the band over a stretch that begins (s) at rest, but for a relative perturbation.
 pub(crate) fn stretch(
     scene: &impl Stepped,
     model: &RunModel,
     span: Span,
-    begin: f64,
+    from: [f64; 2],
     band_hz: f64,
 ) -> Result<Vec<TimeSeries>, String> {
-    let run = scene.stepped_from_rest(model, span, begin).map_err(|error| error.to_string())?;
+    let run = scene.stepped_from_rest(model, span, from).map_err(|error| error.to_string())?;
     if let RunEnd::BlewUp(error) = &run.end {
         return Err(error.to_string());
     }

@@ -131,6 +131,11 @@ pub(crate) fn together(parts: &mut [ChosenPart], growth: f64) -> Option<f64> {
             part.why += &format!("; {} times the linear estimate, as balls strike", significant(growth, 2));
         }
     }
+    root_of_squares(parts)
+}
+
+/// The parts' errors together; `None` if one has none.
+pub(crate) fn root_of_squares(parts: &[ChosenPart]) -> Option<f64> {
     let squares = parts.iter().map(|part| part.estimated_error.map(|e| e * e));
     let sum: Option<f64> = squares.sum();
     sum.map(f64::sqrt)

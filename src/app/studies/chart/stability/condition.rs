@@ -2,10 +2,10 @@
 //!
 //! What short runs do: two that begin a little apart, side by side, against finer ones from the same starts.
 
-use super::super::starts::perturb;
 use super::super::{Deadline, Effort};
 use crate::app::case;
 use crate::app::case::{Case, Defect, Load};
+use crate::app::commands::run::choice::perturbation::perturb;
 use crate::app::error::ComputeError;
 use crate::app::scene::bearing::setup_of;
 use crate::app::scene::{RunModel, Scene};
