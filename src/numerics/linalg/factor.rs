@@ -51,7 +51,7 @@ impl Numbers {
     }
 
     /// `F^-1 B` in place for `B` [n x k].
-    fn solve(&self, plan: &Plan, mut b: MatMut<'_, f64>) {
+    fn solve(&self, plan: &Plan, b: MatMut<'_, f64>) {
         match (self, plan) {
             (Self::Single(numbers), Plan::Own(symbolic)) => numbers.solve(symbolic, b),
             (Self::Double(numbers), Plan::Own(symbolic)) => numbers.solve(symbolic, b),
@@ -59,7 +59,10 @@ impl Numbers {
             (Self::Mumps(numbers), _) => numbers.solve(b),
             // numbers are those of their own plan
             #[cfg(feature = "mumps")]
-            _ => b.fill(f64::NAN),
+            _ => {
+                let mut b = b;
+                b.fill(f64::NAN);
+            }
         }
     }
 
