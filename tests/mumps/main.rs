@@ -33,7 +33,8 @@ count = {MODES}
 /// Runs `plummer modes` in the folder of a case, with files of factors below it.
 fn run(folder: &Path, factor: &str, launcher: &[&str]) -> Output {
     let program = env!("CARGO_BIN_EXE_plummer");
-    let words: Vec<&str> = launcher.iter().copied().chain([program, "modes", "case.toml", "--out", factor]).collect();
+    let out = if factor.is_empty() { "unforced" } else { factor };
+    let words: Vec<&str> = launcher.iter().copied().chain([program, "modes", "case.toml", "--out", out]).collect();
     let files = folder.join("files");
     fs::create_dir_all(&files).expect("a folder for files");
     let mut command = Command::new(words[0]);

@@ -27,6 +27,16 @@ pub enum LinalgError {
         /// What the library said.
         reason: &'static str,
     },
+    /// A factorisation by another library failed.
+    #[error("the factorisation of a {order} x {order} matrix by {by} failed: {reason}")]
+    Library {
+        /// Number of rows of the matrix.
+        order: usize,
+        /// Which library, and how it keeps factors.
+        by: String,
+        /// Why, and what helps.
+        reason: String,
+    },
     /// A factor that is larger than the memory.
     #[error(
         "the factor of a {order} x {order} matrix has {entries} entries, at least {} GB: {limit}; expected a coarser mesh, or elements of lower order",

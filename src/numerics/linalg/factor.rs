@@ -59,7 +59,10 @@ impl Numbers {
             (Self::Mumps(numbers), _) => numbers.solve(b),
             // numbers are those of their own plan
             #[cfg(feature = "mumps")]
-            _ => { b }.fill(f64::NAN),
+            _ => {
+                let mut b = b;
+                b.fill(f64::NAN);
+            }
         }
     }
 

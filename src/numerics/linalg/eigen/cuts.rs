@@ -141,7 +141,7 @@ impl EigenProblem {
         let first = self.free_shift();
         for larger in [1.0, 1e2, 1e4] {
             match tried {
-                Err(LinalgError::Factorisation { .. }) | Ok(_) => break,
+                Err(LinalgError::Factorisation { .. } | LinalgError::Library { .. }) | Ok(_) => break,
                 Err(_) => tried = attempt(larger * first),
             }
         }

@@ -104,8 +104,11 @@ pub(super) fn empty<T: Real>(symmetry: c_int, folder: &[u8]) -> Box<Structure<T>
 /// Runs a job on this process, whose turn it must be.
 pub(super) fn run<T: Real>(structure: &mut Structure<T>, job: Job) {
     structure.job = job as c_int;
+    let folder = structure.ooc_tmpdir;
     T::call(structure);
     if job == Job::Begin {
+        // which forgets it
+        structure.ooc_tmpdir = folder;
         // units of Fortran for errors, warnings and statistics, and how much is said
         structure.icntl[..4].fill(0);
     }

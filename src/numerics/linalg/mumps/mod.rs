@@ -74,7 +74,7 @@ impl<T: Real> MumpsFactor<T> {
     ///
     /// # Errors
     /// [`LinalgError::NotPositiveDefinite`] for [`Kind::Definite`], [`LinalgError::NearlySingular`] for a pivot of zero,
-    /// [`LinalgError::Refused`] where memory, disk or the library do not suffice.
+    /// [`LinalgError::Library`] where memory, disk or the library do not suffice.
     pub(super) fn new(a: &SymmetricMatrix, kind: Kind, way: Way) -> Result<Self, LinalgError> {
         let order = a.order();
         let failed = |failure| told(failure, order, way);
@@ -131,6 +131,10 @@ impl<T: Real> MumpsFactor<T> {
         }
         done.map_err(failed)?;
         let negative = usize::try_from(instance.info(12)).unwrap_or_default();
+        // on one process MUMPS counts them without a word
+        if kind == Kind::Definite && negative > 0 {
+            return Err(LinalgError::NotPositiveDefinite { order, pivot: 0 });
+        }
         Ok(Self { instance: Mutex::new(instance), scale, negative, _folder: folder })
     }
 
@@ -209,9 +213,7 @@ impl Numbers {
 
 /// What a failure of MUMPS means to who reads it (users' guide of version 5.5, section 8).
 fn told(Failure(code, detail): Failure, order: usize, way: Way) -> LinalgError {
-    let refused = |why: String| {
-        LinalgError::Refused(format!("the factorisation of a {order} x {order} matrix by MUMPS ({way}) failed: {why}"))
-    };
+    let refused = |reason: String| LinalgError::Library { order, by: format!("MUMPS, {way},"), reason };
     match code {
         0 => refused("its library has another version; expected 5.5, with which the program was built".to_owned()),
         -40 => LinalgError::NotPositiveDefinite { order, pivot: 0 },

@@ -82,12 +82,18 @@ fn what_cannot_be_factorised_is_told() {
 }
 
 #[test]
-fn files_are_gone_with_the_factor() {
-    let folder = Folder::new().expect("a folder");
-    let path = std::path::PathBuf::from(std::str::from_utf8(folder.bytes()).expect("UTF-8"));
-    assert!(path.is_dir());
-    drop(folder);
+fn files_are_in_a_folder_and_gone_with_the_factor() {
+    let factor = MumpsFactor::<f32>::new(&cube(9, 0.0), Kind::Indefinite, Way::OutOfCore).expect("regular");
+    let path = factor._folder.as_ref().expect("a folder").bytes();
+    let path = std::path::PathBuf::from(std::str::from_utf8(path).expect("UTF-8"));
+    assert!(std::fs::read_dir(&path).expect("it is there").count() > 0);
+    drop(factor);
     assert!(!path.exists());
+}
+
+#[test]
+fn analysis_by_scotch_is_made_safe() {
+    assert!(ffi::low_rank_is_safe());
 }
 
 #[test]
