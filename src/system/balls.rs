@@ -49,9 +49,8 @@ pub(super) struct BallGroup {
     pub approach: Lanes,
     pub yielding: Lanes,
     pub growth: Lanes,
-    /// Velocity towards the outer race, m/s, and of the race by kept modes and turning where the contacts are damped.
+    /// Velocity towards the outer race, m/s.
     pub rate: Lanes,
-    pub race_rate: Lanes,
     /// Displacement of the outer race along increasing angle under a ball on waves or damage, m, and its rate as the ball moves
     /// along, m/s; of other balls stale.
     pub shift: Lanes,

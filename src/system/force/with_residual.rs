@@ -2,7 +2,7 @@
 
 use super::super::balls::BallGroup;
 use super::super::coupled::CoupledSystem;
-use crate::numerics::lanes::{LANES, Lanes, each, first_mut, fused, positive};
+use crate::numerics::lanes::{LANES, Lanes, each, first_mut, positive};
 
 /// Sweeps over all balls at once: three to five where the residual is a few percent of the contacts' own flexibility.
 const SWEEPS: usize = 12;
@@ -17,12 +17,9 @@ pub(super) const MAX_SWEEPS: usize = 1000;
 /// below any integration error.
 pub(super) const SWEEP_TOLERANCE: f64 = 1e-6;
 
-/// Relative change of a displacement and its rate over which no force on waves or damage begins or ends.
+/// Relative change of a displacement and its rate over which the force on waves or damage is continued by its tangent; the error
+/// is that times what the tangent leaves out, the profile's turning of the normals.
 const SAME_PLACE: f64 = 1e-6;
-
-/// Relative change of a force on waves or damage over which it is continued by its tangent: what that leaves out of
-/// `delta^(3/2)` is a sixth of its square.
-const SAME_FORCE: f64 = 1e-4;
 
 impl CoupledSystem {
     /// Outer forces that deform the race through the residual flexibility `G`, `F_j = f(gap_j - sum G_jk F_k)`: all balls at
@@ -217,13 +214,10 @@ impl CoupledSystem {
         let (group, lane) = (j / LANES, j % LANES);
         let s = self.balls.groups[group].gap[lane] - self.balls.groups[group].displaced[lane];
         let rate = self.balls.groups[group].rate[lane];
-        let (known, known_rate, force) = &self.work.known[j];
-        let [moved, faster] = [(s - known).abs(), (rate - known_rate).abs()];
-        let change = moved * force.tangent[0].abs() + faster * force.by_rate[0].abs();
-        let same_place = moved <= SAME_PLACE * s.abs() && faster <= SAME_PLACE * rate.abs();
-        let same_force = force.radial > 0.0 && change <= SAME_FORCE * force.radial;
+        let (known, known_rate, _) = self.work.known[j];
+        let near = (s - known).abs() <= SAME_PLACE * s.abs() && (rate - known_rate).abs() <= SAME_PLACE * rate.abs();
         // also where none is known
-        if !(same_place || same_force) {
+        if !near {
             self.work.known[j] = (s, rate, self.outer_force(j, s));
         }
         let (at, at_rate, force) = &self.work.known[j];
@@ -307,7 +301,7 @@ fn add_columns<'c>(
             for (group, column) in groups.iter_mut().zip(column(number * LANES + lane)) {
                 let sum = sum(group);
                 let before = *sum;
-                *sum = each(|l| fused(column[l], factor, before[l]));
+                *sum = each(|l| before[l] + column[l] * factor);
             }
         }
     }

@@ -4,11 +4,9 @@
 //! until quintics with the values and slopes of their ends and their middle reproduce them to [`ACCURACY`]; a stretch lasts
 //! many steps, and its quintics are made when it is entered.
 
-use super::super::balls::BallGroup;
-use super::super::raceway::{Quintic, slope, value, value_and_slope};
+use super::super::raceway::{Quintic, slope, value};
 use super::{ResidualFlexibility, Touch};
-use crate::numerics::lanes::{LANES, Lanes, each, first, first_mut, fused, together, total};
-use multiversion::multiversion;
+use crate::numerics::lanes::{LANES, Lanes, each, first, first_mut, together};
 use std::f64::consts::TAU;
 
 /// Largest deviation of the quintics, relative to the largest flexibility between balls. The residual is some percent of what a
@@ -98,18 +96,16 @@ impl Coupling {
         let range = k * self.groups..(k + 1) * self.groups;
         let quintics = first::<B, _>(&self.made[slot].quintics[range.clone()]);
         let values = first_mut::<B, _>(&mut self.values[range.clone()]);
-        if !with_slopes {
-            for (out, quintic) in values.iter_mut().zip(quintics) {
-                *out = together(value(quintic, x));
-            }
-            return;
+        for (out, quintic) in values.iter_mut().zip(quintics) {
+            *out = together(value(quintic, x));
         }
-        let scale = 2.0 * self.stretches as f64 / TAU;
-        let slopes = first_mut::<B, _>(&mut self.slopes[range]);
-        for ((value, slope), quintic) in values.iter_mut().zip(slopes).zip(quintics) {
-            let [values, slopes] = value_and_slope(quintic, x);
-            *value = together(values);
-            *slope = together(each(|l| scale * slopes[l]));
+        if with_slopes {
+            let scale = 2.0 * self.stretches as f64 / TAU;
+            let slopes = first_mut::<B, _>(&mut self.slopes[range]);
+            for (out, quintic) in slopes.iter_mut().zip(quintics) {
+                let slopes = slope(quintic, x);
+                *out = together(each(|l| scale * slopes[l]));
+            }
         }
     }
 
@@ -139,10 +135,12 @@ impl Coupling {
 
     /// Displacement of a sensor for radial forces at the balls (N), m.
     #[inline]
-    pub(crate) fn at_sensor(&self, sensor: usize, balls: &[BallGroup]) -> f64 {
+    pub(crate) fn at_sensor(&self, sensor: usize, forces: impl Iterator<Item = f64>) -> f64 {
         let (slot, x) = self.at;
         let first = (self.balls + 1 + sensor) * self.groups;
-        displacement(&self.made[slot].quintics[first..first + self.groups], x, balls)
+        let quintics = &self.made[slot].quintics[first..first + self.groups];
+        let row = quintics.iter().flat_map(|quintic| value(quintic, x));
+        row.zip(forces).map(|(row, force)| row * force).sum()
     }
 
     /// Rate by the cage angle (N m/rad) of the work of radial forces F at the balls, `F . w + F . G F / 2` with the flexibility
@@ -249,17 +247,6 @@ impl Coupling {
         }
         worst / largest.max(f64::MIN_POSITIVE)
     }
-}
-
-/// Sum over the radial forces at the balls (N), each times its quintic at a place.
-#[multiversion(targets("x86_64+avx2+fma", "aarch64+neon"), dispatcher = "direct")]
-fn displacement(quintics: &[Quintic], x: f64, balls: &[BallGroup]) -> f64 {
-    let mut sums = [0.0; LANES];
-    for (quintic, BallGroup { outer_radial, .. }) in quintics.iter().zip(balls) {
-        let row = value(quintic, x);
-        sums = each(|l| fused(row[l], outer_radial[l], sums[l]));
-    }
-    total(&sums)
 }
 
 fn least_common_multiple(a: usize, b: usize) -> usize {

@@ -1,7 +1,7 @@
 //! One step of the exponential Adams method, coordinates side by side.
 
 use super::flow::{Flow, GroupFlow};
-use crate::numerics::lanes::{LANES, Lanes, each, from, fused, put, together};
+use crate::numerics::lanes::{LANES, Lanes, each, from, put, together};
 use crate::numerics::ode::{Exchange, LinearCoordinate, SecondOrderSystem, SnapshotError};
 use multiversion::multiversion;
 
@@ -161,10 +161,10 @@ impl Track {
 
     /// Takes the step, of `step` s: the velocity under the curve through the force at its end too.
     pub(super) fn accept(&mut self, step: f64, system: &impl SecondOrderSystem) {
-        if self.with_springs {
-            system.own_springs_into(&mut self.springs, &mut self.sizes);
-        }
         accept(self);
+        if self.with_springs {
+            self.find_springs(system);
+        }
         self.past = [step, self.past[0]];
     }
 
@@ -213,20 +213,18 @@ fn each_group(
     [free, all]: [usize; 2],
     mut on: impl FnMut(usize, &mut Group, std::ops::Range<usize>),
 ) {
-    let (held, others) = groups.split_at_mut(free.div_ceil(LANES));
-    let mut number = 0;
-    for (groups, first, end) in [(held, 0, free), (others, free, all)] {
-        let mut start = first;
-        for group in groups {
+    let (mut number, mut start) = (0, 0);
+    for end in [free, all] {
+        while start < end {
             let next = (start + LANES).min(end);
-            on(number, group, start..next);
+            on(number, &mut groups[number], start..next);
             (number, start) = (number + 1, next);
         }
     }
 }
 
 /// Begins where the state is.
-#[multiversion(targets("x86_64+avx2+fma", "aarch64+neon"), dispatcher = "direct")]
+#[multiversion(targets("x86_64+avx2", "aarch64+neon"), dispatcher = "direct")]
 pub(super) fn begin(track: &mut Track, [y, v, g]: [&[f64]; 3]) {
     let shape = [track.free, track.position.len()];
     each_group(&mut track.groups, shape, |_, group, place| {
@@ -236,7 +234,7 @@ pub(super) fn begin(track: &mut Track, [y, v, g]: [&[f64]; 3]) {
     });
 }
 
-#[multiversion(targets("x86_64+avx2+fma", "aarch64+neon"), dispatcher = "direct")]
+#[multiversion(targets("x86_64+avx2", "aarch64+neon"), dispatcher = "direct")]
 fn predict(track: &mut Track, flow: &Flow) {
     let Track { free, with_springs, weights, .. } = *track;
     let (position, velocity) = (&mut track.position, &mut track.velocity);
@@ -259,30 +257,29 @@ fn advance(group: &mut Group, flow: &GroupFlow, weights: &Weights) {
     let (y, v, g, spring) = (&group.y, &group.v, &group.g, &group.spring);
     let (before, two_before) = (&group.before, &group.two_before);
     let (place, place_two) = (&group.place_before, &group.place_two_before);
-    let rise = each(|l| fused(spring[l], y[l] - place[l], g[l] - before[l]));
-    let earlier = each(|l| fused(spring[l], place[l] - place_two[l], before[l] - two_before[l]));
+    let rise = each(|l| (g[l] - before[l]) + spring[l] * (y[l] - place[l]));
+    let earlier = each(|l| (before[l] - two_before[l]) + spring[l] * (place[l] - place_two[l]));
     let line = each(|l| weights.line * rise[l]);
-    let bow = each(|l| fused(-weights.bow[1], earlier[l], weights.bow[0] * rise[l]));
-    let lean = each(|l| fused(weights.lean, bow[l], line[l]));
+    let bow = each(|l| weights.bow[0] * rise[l] - weights.bow[1] * earlier[l]);
+    let lean = each(|l| line[l] + weights.lean * bow[l]);
     group.line = line;
     group.parabola = each(|l| lean[l] + bow[l]);
     group.over = flow.over;
     let curve = if weights.of.quadratic { [lean, bow] } else { [line, [0.0; LANES]] };
     let [linear, square] = &curve;
     group.position = each(|l| {
-        let forced = fused(flow.square[l], square[l], fused(flow.ramp[l], linear[l], flow.response[l] * g[l]));
-        fused(flow.position_position[l], y[l], fused(flow.position_velocity[l], v[l], forced))
+        (flow.position_position[l] * y[l] + flow.position_velocity[l] * v[l])
+            + (flow.response[l] * g[l] + flow.ramp[l] * linear[l] + flow.square[l] * square[l])
     });
     let [over, ramp_over, _] = &flow.over;
     group.velocity = each(|l| {
-        let forced = fused(over[l], linear[l], flow.position_velocity[l] * g[l]);
-        let forced = fused(2.0 * ramp_over[l], square[l], forced);
-        fused(flow.velocity_position[l], y[l], fused(flow.velocity_velocity[l], v[l], forced))
+        (flow.velocity_position[l] * y[l] + flow.velocity_velocity[l] * v[l])
+            + (flow.position_velocity[l] * g[l] + over[l] * linear[l] + 2.0 * ramp_over[l] * square[l])
     });
 }
 
 /// Sets the defects; gives the largest error that line and parabola leave. What is not a number does not count.
-#[multiversion(targets("x86_64+avx2+fma", "aarch64+neon"), dispatcher = "direct")]
+#[multiversion(targets("x86_64+avx2", "aarch64+neon"), dispatcher = "direct")]
 fn compare(track: &mut Track) -> [f64; 2] {
     let shape = [track.free, track.position.len()];
     let (force, weights) = (&track.force, track.weights);
@@ -291,7 +288,7 @@ fn compare(track: &mut Track) -> [f64; 2] {
         group.force = from(&force[place]);
         let (next, now, largest) = (&group.force, &group.g, &group.largest);
         let (end, start, spring) = (&group.position, &group.y, &group.spring);
-        let rise = each(|l| fused(spring[l], end[l] - start[l], next[l] - now[l]));
+        let rise = each(|l| (next[l] - now[l]) + spring[l] * (end[l] - start[l]));
         let unit = each(|l| larger(largest[l], next[l].abs()) + f64::MIN_POSITIVE);
         let share = each(|l| weights.share / unit[l]);
         let (line, parabola) = (&group.line, &group.parabola);
@@ -310,45 +307,35 @@ fn larger(a: f64, b: f64) -> f64 {
     if b > a { b } else { a }
 }
 
-#[multiversion(targets("x86_64+avx2+fma", "aarch64+neon"), dispatcher = "direct")]
+#[multiversion(targets("x86_64+avx2", "aarch64+neon"), dispatcher = "direct")]
 fn accept(track: &mut Track) {
     let [line, square, cube] = track.weights.correction;
-    let Track { free, with_springs, .. } = *track;
-    let (velocity, springs, sizes) = (&mut track.velocity, &track.springs, &track.sizes);
-    let shape = [free, velocity.len()];
+    let velocity = &mut track.velocity;
+    let shape = [track.free, velocity.len()];
     each_group(&mut track.groups, shape, |_, group, place| {
         let (predicted, defect, over) = (&group.velocity, &group.defect, &group.over);
         group.v = each(|l| {
-            let correction = fused(cube, over[2][l], fused(square, over[1][l], line * over[0][l]));
-            fused(correction, defect[l], predicted[l])
+            let correction = line * over[0][l] + square * over[1][l] + cube * over[2][l];
+            predicted[l] + correction * defect[l]
         });
-        put(&group.v, &mut velocity[place.clone()]);
+        put(&group.v, &mut velocity[place]);
         (group.place_two_before, group.two_before) = (group.place_before, group.before);
         (group.place_before, group.before) = (group.y, group.g);
         (group.y, group.g) = (group.position, group.force);
         let (force, largest) = (&group.force, &group.largest);
         group.largest = each(|l| larger(largest[l], force[l].abs()));
-        if with_springs {
-            group.take_springs([springs, sizes], place, free);
-        }
     });
 }
 
-#[multiversion(targets("x86_64+avx2+fma", "aarch64+neon"), dispatcher = "direct")]
+#[multiversion(targets("x86_64+avx2", "aarch64+neon"), dispatcher = "direct")]
 fn take_springs(track: &mut Track) {
     let (free, springs, sizes) = (track.free, &track.springs, &track.sizes);
     let shape = [free, springs.len()];
-    each_group(&mut track.groups, shape, |_, group, place| group.take_springs([springs, sizes], place, free));
-}
-
-impl Group {
-    /// Takes the springs of the coordinates at `place` if they are free, and the size of their forces.
-    #[inline(always)]
-    fn take_springs(&mut self, [springs, sizes]: [&[f64]; 2], place: std::ops::Range<usize>, free: usize) {
-        let (size, largest) = (together(from(&sizes[place.clone()])), &self.largest);
-        self.largest = each(|l| larger(largest[l], OF_PARTS * size[l]));
+    each_group(&mut track.groups, shape, |_, group, place| {
+        let (size, largest) = (together(from(&sizes[place.clone()])), &group.largest);
+        group.largest = each(|l| larger(largest[l], OF_PARTS * size[l]));
         if place.start >= free {
-            self.spring = from(&springs[place]);
+            group.spring = from(&springs[place]);
         }
-    }
+    });
 }
