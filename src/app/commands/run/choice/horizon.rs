@@ -271,11 +271,14 @@ mod tests {
         assert!(part.why.ends_with("parts from it at once"), "{}", part.why);
     }
 
-    /// The same references: 0.015 is passed after 2.5 ms, where the first ball that the preload does not hold comes back.
+    /// After 2.5 ms the first ball that the preload does not hold comes back, and a perturbation grows thousandfold. The estimate
+    /// holds until then, and within the next stretch no longer.
     #[test]
     fn a_preload_of_ten_nanometres_holds_no_ball_for_long() {
         let horizon = horizon("scenes/smooth", &["ring.nodes=36", "bearing.radial_play=-1e-8", "transient.end=5e-3"]);
-        assert!((1.9e-3..2.5e-3).contains(&horizon.held_s), "{horizon:?}");
+        assert!((1.9e-3..3e-3).contains(&horizon.held_s), "{horizon:?}");
+        let [held, looked] = horizon.growth.unwrap();
+        assert!(held < COVERED && looked > 100.0 * COVERED, "{horizon:?}");
     }
 
     #[test]
