@@ -31,4 +31,5 @@ for part in ("outer", "inner", "ball"):
     for line in parts[part] * np.arange(1, 4):
         about = np.abs(orders - line)
         heights.append(spectrum[about < 0.05].max() / np.median(spectrum[about < 1]))
-    print(f"{part}: order {parts[part]:.3f}, its harmonics {np.round(heights, 1)} times the median about them")
+    heights = ", ".join(f"{height:.1f}" for height in heights)
+    print(f"{part}: order {parts[part]:.3f}, its harmonics {heights} times the median about them")
