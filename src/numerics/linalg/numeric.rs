@@ -10,6 +10,7 @@ use super::precision::Precision;
 use super::rest::{Pool, Rest};
 use super::substitution::{Pivoting, Triangles, substitute};
 use super::symbolic::Symbolic;
+use super::tree::lock;
 use super::{LinalgError, SymmetricMatrix};
 use faer::MatMut;
 use faer::prelude::*;
@@ -249,10 +250,6 @@ impl<'a, T: Precision> Elimination<'a, T> {
             *failure = Some(error);
         }
     }
-}
-
-fn lock<V>(mutex: &Mutex<V>) -> std::sync::MutexGuard<'_, V> {
-    mutex.lock().unwrap_or_else(|poisoned| poisoned.into_inner())
 }
 
 #[cfg(test)]

@@ -2,6 +2,7 @@
 
 use super::precision::Precision;
 use super::trapezoid::Trapezoid;
+use super::tree::lock;
 use std::sync::Mutex;
 
 /// Width of the blocks in which the rest of a front is stored, for fewer rows than [`MANY`] and for more.
@@ -52,7 +53,7 @@ impl<T: Precision> Pool<T> {
         if length == 0 {
             return Vec::new();
         }
-        let mut pool = self.0.lock().unwrap_or_else(|poisoned| poisoned.into_inner());
+        let mut pool = lock(&self.0);
         let place = pool.partition_point(|memory| memory.len() < length);
         if place < pool.len() {
             return pool.remove(place);
@@ -65,7 +66,7 @@ impl<T: Precision> Pool<T> {
 
     pub(super) fn give_back(&self, rest: Rest<T>) {
         if !rest.entries.is_empty() {
-            let mut pool = self.0.lock().unwrap_or_else(|poisoned| poisoned.into_inner());
+            let mut pool = lock(&self.0);
             let place = pool.partition_point(|memory| memory.len() < rest.entries.len());
             pool.insert(place, rest.entries);
         }

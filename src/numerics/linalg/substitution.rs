@@ -12,6 +12,7 @@
 
 use super::precision::Precision;
 use super::symbolic::Symbolic;
+use super::tree::lock;
 use multiversion::multiversion;
 use multiversion::target::target_cfg_f;
 use std::sync::Mutex;
@@ -401,10 +402,6 @@ impl<'a, T: Precision> Triangles<'a, T> {
             }
         }
     }
-}
-
-fn lock<V>(mutex: &Mutex<V>) -> std::sync::MutexGuard<'_, V> {
-    mutex.lock().unwrap_or_else(|poisoned| poisoned.into_inner())
 }
 
 /// How many of the columns left are taken at once: a power of two.

@@ -4,6 +4,7 @@
 
 use std::ops::Range;
 use std::sync::atomic::{AtomicUsize, Ordering};
+use std::sync::{Mutex, MutexGuard};
 
 /// No supernode or node.
 pub(super) const NONE: u32 = u32::MAX;
@@ -131,4 +132,9 @@ impl Tree {
             part = last;
         }
     }
+}
+
+/// What a mutex holds, whatever became of another thread that held it.
+pub(super) fn lock<V>(mutex: &Mutex<V>) -> MutexGuard<'_, V> {
+    mutex.lock().unwrap_or_else(|poisoned| poisoned.into_inner())
 }

@@ -259,7 +259,6 @@ mod tests {
         let raised = choice.estimated_error.unwrap();
         let span = Span { duration: 6e-3, output_hz: run.transient.output_hz };
         let growth = Growth::of(&scene, &choice.model, span, 0.0, 40e3).unwrap();
-        println!("{honest} {raised} {horizon:?} {growth:?}");
         assert!((0.1..2.0).contains(&(raised / honest)), "{raised} {honest}");
         assert!(
             (2e-3..6e-3).contains(&growth.time_s(COVERED)) && horizon.held_s >= growth.time_s(COVERED),
