@@ -5,7 +5,7 @@ CASE := examples/tadina2011/outer-dent.toml
 WINDOWS := analysis.envelope=[{from=1.0,to=2.6},{from=2.3,to=2.4}]
 REPORT := out/outer-dent/report.html
 MDBOOK := $(firstword $(wildcard target/tools/bin/mdbook) mdbook)
-.PHONY: help setup demo machines test python nightly figures meshes book docs bench bench-peers clean
+.PHONY: help setup demo machines test python nightly figures meshes book docs bench bench-peers bench-all clean
 
 help:
 	@echo "make demo    build, run the dented bearing and say where its report is"
@@ -20,6 +20,7 @@ help:
 	@echo "make docs    documentation of the library"
 	@echo "make bench   benchmarks"
 	@echo "make bench-peers  other integrators on the same equations (needs numpy, scipy, scikit-sundae)"
+	@echo "make bench-all  every table of docs/performance.md (hours; needs gmsh, ccx, slepc4py, numpy, scipy, scikit-sundae, scikit-sparse, exudyn)"
 	@echo "make clean   remove what was built and computed"
 
 setup:
@@ -77,6 +78,15 @@ bench: setup
 	cargo bench
 
 bench-peers: setup
+	python3 benches/peers.py
+
+# The tables of docs/performance.md: hours on an idle machine, with gmsh, CalculiX and SLEPc installed.
+bench-all: bench
+	cargo build --release
+	python3 benches/housings.py
+	python3 benches/housings.py --sizes 10,74,181,244,482,1156 --programs plummer --repeats 1
+	python3 benches/condensation.py
+	python3 benches/ensembles.py
 	python3 benches/peers.py
 
 clean:
