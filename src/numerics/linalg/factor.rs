@@ -187,7 +187,18 @@ impl Factor {
         }
     }
 
+    /// # Errors
+    /// [`LinalgError::Library`] if a solve by a library has failed, whose solutions are then no numbers.
+    pub(super) fn check(&self) -> Result<(), LinalgError> {
+        match &self.numbers {
+            Numbers::Single(_) | Numbers::Double(_) => Ok(()),
+            #[cfg(feature = "mumps")]
+            Numbers::Mumps(numbers) => numbers.check(),
+        }
+    }
+
     fn judged(self) -> Result<Self, LinalgError> {
+        self.check()?;
         match self.contraction {
             contraction if contraction <= LARGEST_CONTRACTION => Ok(self),
             contraction => Err(LinalgError::NearlySingular { order: self.symbolic.order(), contraction }),

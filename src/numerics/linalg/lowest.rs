@@ -143,6 +143,7 @@ impl<'p> Search<'p> {
             let mut block = first(block, width);
             (self.told)(0.5 * self.basis.size as f64 / self.krylov as f64);
             factor.solve(block.rb_mut());
+            factor.check()?;
             self.mass.times_into(block.rb(), first(product, width));
             width = self.extend(width)?;
             if width == 0 {
@@ -239,6 +240,9 @@ impl<'p> Search<'p> {
     }
 
     /// Adds a correction of every pair that has not converged, or returns all of them if there is none.
+    ///
+    /// # Errors
+    /// [`LinalgError::DenseEigen`], [`LinalgError::Library`].
     fn correct(&mut self, factor: &Factor) -> Result<Option<SymmetricSpectrum>, LinalgError> {
         let spectrum = self.ritz()?;
         let pursued = self.pursued.min(self.basis.size);
@@ -259,6 +263,7 @@ impl<'p> Search<'p> {
             return Ok(Some(SymmetricSpectrum { values, vectors }));
         }
         let steps = self.steps(&spectrum, &chosen, factor);
+        factor.check()?;
         let mut open = Vec::new();
         for (column, &place) in chosen.iter().enumerate() {
             let [length, residual, energy] = steps[column];

@@ -22,7 +22,7 @@ use files::Folder;
 use instance::{Entries, Failure, Instance};
 
 use std::ffi::c_int;
-use std::sync::{Mutex, PoisonError};
+use std::sync::{Mutex, OnceLock, PoisonError};
 
 use ffi::Real;
 pub(super) use way::Way;
@@ -59,6 +59,9 @@ pub(super) struct MumpsFactor<T: Real> {
     /// `1 / sqrt |a_ii|`.
     scale: Vec<f64>,
     negative: usize,
+    way: Way,
+    /// Of the first solve that failed.
+    failure: OnceLock<Failure>,
     /// Holds its files, if any; removed after the instance.
     _folder: Option<Folder>,
 }
@@ -135,10 +138,10 @@ impl<T: Real> MumpsFactor<T> {
         if kind == Kind::Definite && negative > 0 {
             return Err(LinalgError::NotPositiveDefinite { order, pivot: 0 });
         }
-        Ok(Self { instance: Mutex::new(instance), scale, negative, _folder: folder })
+        Ok(Self { instance: Mutex::new(instance), scale, negative, way, failure: OnceLock::new(), _folder: folder })
     }
 
-    /// `A^-1 B` in place for `B` [n x k]; no numbers where MUMPS failed, as by a disk that does not answer.
+    /// `A^-1 B` in place for `B` [n x k]; no numbers where MUMPS failed, which [`MumpsFactor::check`] tells.
     pub(super) fn solve(&self, mut b: MatMut<'_, f64>) {
         let order = self.scale.len();
         let mut sides = vec![T::default(); order * b.ncols()];
@@ -147,12 +150,21 @@ impl<T: Real> MumpsFactor<T> {
                 *to = T::of(scale * from);
             }
         }
-        let solved = self.instance.lock().unwrap_or_else(PoisonError::into_inner).solve(&mut sides).is_ok();
+        let solved = self.instance.lock().unwrap_or_else(PoisonError::into_inner).solve(&mut sides);
         for (column, side) in sides.chunks_exact(order.max(1)).enumerate() {
             for ((to, from), scale) in b.rb_mut().col_mut(column).iter_mut().zip(side).zip(&self.scale) {
-                *to = if solved { scale * from.value() } else { f64::NAN };
+                *to = if solved.is_ok() { scale * from.value() } else { f64::NAN };
             }
         }
+        if let Err(failure) = solved {
+            self.failure.get_or_init(|| failure);
+        }
+    }
+
+    /// # Errors
+    /// [`LinalgError::Library`] if a solve has failed, as by a disk that does not answer.
+    fn check(&self) -> Result<(), LinalgError> {
+        self.failure.get().map_or(Ok(()), |failure| Err(told(*failure, self.scale.len(), self.way)))
     }
 }
 
@@ -199,6 +211,15 @@ impl Numbers {
         match self {
             Self::Single(factor) => factor.solve(b),
             Self::Double(factor) => factor.solve(b),
+        }
+    }
+
+    /// # Errors
+    /// [`LinalgError::Library`] if a solve has failed.
+    pub(super) fn check(&self) -> Result<(), LinalgError> {
+        match self {
+            Self::Single(factor) => factor.check(),
+            Self::Double(factor) => factor.check(),
         }
     }
 

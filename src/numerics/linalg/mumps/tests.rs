@@ -92,6 +92,19 @@ fn files_are_in_a_folder_and_gone_with_the_factor() {
 }
 
 #[test]
+fn a_solve_that_failed_is_told_by_its_factor() {
+    let a = cube(9, 0.0);
+    let numbers = MumpsFactor::<f32>::new(&a, Kind::Indefinite, Way::OutOfCore).expect("regular");
+    assert_eq!(numbers.check(), Ok(()));
+    // what MUMPS says of a file that it cannot read
+    numbers.failure.set(Failure(-90, 0)).expect("none failed");
+    let plan = Arc::new(Plan::of(&a).expect("analysed"));
+    let factor = Factor::measured(&plan, &a, OfFactor::Mumps(Box::new(Numbers::Single(numbers))));
+    let failed = factor.check().expect_err("a solve failed").to_string();
+    assert!(failed.contains("MUMPS_OOC_TMPDIR"), "{failed}");
+}
+
+#[test]
 fn analysis_by_scotch_is_made_safe() {
     assert!(ffi::low_rank_is_safe());
 }
