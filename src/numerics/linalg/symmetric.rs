@@ -12,6 +12,9 @@ use std::cell::RefCell;
 /// Vectors that are multiplied at once: an entry is loaded once for all of them.
 const LANES: usize = 8;
 
+/// Columns that one thread permutes in a row.
+const COLUMNS: usize = 2048;
+
 /// Rows that are turned from columns to lanes at once: they stay in the first cache.
 const TILE: usize = 256;
 
@@ -31,29 +34,41 @@ pub(super) struct SymmetricMatrix {
 impl SymmetricMatrix {
     /// The matrix `a` [n x n], both triangles stored, in another order and without what that leaves out.
     pub(super) fn permuted(a: &SparseMatrix, ordering: &Ordering) -> Self {
-        let part = ordering.old.len() as f64 / a.cols().max(1) as f64;
-        let stored = (part * (a.nnz() / 2 + a.cols()) as f64) as usize;
-        let mut matrix = Self {
-            offsets: Vec::with_capacity(a.cols() + 1),
-            rows: Vec::with_capacity(stored),
-            values: Vec::with_capacity(stored),
-            followers: None,
+        let begins = a.indptr().into_raw_storage();
+        let below = |place: usize| {
+            let column = ordering.old[place] as usize;
+            let range = begins[column]..begins[column + 1];
+            let rows = a.indices()[range.clone()].iter().map(|&row| ordering.new[row]);
+            let entries = rows.zip(a.data()[range].iter().copied());
+            entries.filter(move |entry| entry.0 != ABSENT && entry.0 as usize >= place)
         };
-        matrix.offsets.push(0);
-        let mut column: Vec<(u32, f64)> = Vec::new();
-        for (place, &old) in ordering.old.iter().enumerate() {
-            column.clear();
-            if let Some(entries) = a.outer_view(old as usize) {
-                let entries = entries.iter().map(|(row, &value)| (ordering.new[row], value));
-                let below = |entry: &(u32, f64)| entry.0 != ABSENT && entry.0 as usize >= place;
-                column.extend(entries.filter(below));
-            }
-            column.sort_unstable_by_key(|entry| entry.0);
-            matrix.rows.extend(column.iter().map(|entry| entry.0));
-            matrix.values.extend(column.iter().map(|entry| entry.1));
-            matrix.offsets.push(matrix.rows.len() as u32);
+        let order = ordering.old.len();
+        let mut offsets = vec![0; order + 1];
+        offsets[1..].par_iter_mut().enumerate().for_each(|(place, length)| *length = below(place).count() as u32);
+        for place in 0..order {
+            offsets[place + 1] += offsets[place];
         }
-        matrix
+        let stored = offsets[order] as usize;
+        let (mut rows, mut values) = (vec![0; stored], vec![0.0; stored]);
+        let (mut rows_left, mut values_left) = (&mut rows[..], &mut values[..]);
+        let mut pieces = Vec::with_capacity(order.div_ceil(COLUMNS));
+        for first in (0..order).step_by(COLUMNS) {
+            let last = (first + COLUMNS).min(order);
+            let length = (offsets[last] - offsets[first]) as usize;
+            let own = (rows_left.split_off_mut(..length), values_left.split_off_mut(..length));
+            pieces.push((first..last, own.0.unwrap_or_default(), own.1.unwrap_or_default()));
+        }
+        pieces.into_par_iter().for_each(|(places, rows, values)| {
+            let mut column: Vec<(u32, f64)> = Vec::new();
+            let mut to = rows.iter_mut().zip(values);
+            for place in places {
+                column.clear();
+                column.extend(below(place));
+                column.sort_unstable_by_key(|entry| entry.0);
+                column.iter().zip(to.by_ref()).for_each(|(entry, (row, value))| (*row, *value) = *entry);
+            }
+        });
+        Self { offsets, rows, values, followers: None }
     }
 
     /// Number of rows.
@@ -117,7 +132,7 @@ impl SymmetricMatrix {
 
     /// Whether every entry of another matrix has a place in this one.
     pub(super) fn covers(&self, other: &Self) -> bool {
-        (0..self.order()).all(|column| {
+        (0..self.order()).into_par_iter().all(|column| {
             let mut places = self.column(column);
             other.column(column).all(|(row, _)| places.any(|place| place.0 == row))
         })
