@@ -259,3 +259,51 @@ pub(super) fn in_batches(
     }
     Ok(())
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::fe::material::Material;
+    use crate::fe::mesh::Mesh;
+    use crate::fe::model::{
+        Connection, Constraint, HousingDescription, HousingPart, HousingSupport, Link, SupportShare,
+    };
+    use crate::numerics::linalg::Pattern;
+    use crate::numerics::units::LengthUnit;
+    use std::path::Path;
+
+    fn model(file: &str, parts: &[&str], feet: &str, links: Vec<Link>) -> HousingModel {
+        let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/data").join(file);
+        let mesh = Mesh::read_gmsh(&path, LengthUnit::Millimetre).expect("a mesh");
+        let material = Material::new(70e9, 0.33, 2700.0).expect("aluminium");
+        let part = |group: &&str| HousingPart { group: (*group).to_owned(), material: material.into() };
+        let support = HousingSupport {
+            group: feet.to_owned(),
+            constraint: Constraint::Fixed([true, true, false]),
+            share: SupportShare::PerNode,
+        };
+        let parts = parts.iter().map(part).collect();
+        let description = HousingDescription { parts, supports: vec![support], links, ..HousingDescription::default() };
+        HousingModel::new(&mesh, description).expect("a model")
+    }
+
+    /// The order that is found before there is a value is that of the stiffness, on any number of threads.
+    #[test]
+    fn the_order_found_meanwhile_is_that_of_the_matrix() {
+        let held = model("pedestal_10k.msh", &["housing"], "feet", Vec::new());
+        for threads in [1, 2, 3] {
+            let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("threads");
+            let found = pool.install(|| SystemMatrices::assemble_and_order(&held)).expect("matrices");
+            let expected = Ordering::of_part(Pattern::of(&found.stiffness), &held.free_dofs()).expect("an order");
+            assert_eq!(found.ordering, Some(expected), "{threads}");
+        }
+    }
+
+    /// A tie gives the followed nodes the neighbours of those that follow: the graph of the elements is not the matrix's.
+    #[test]
+    fn a_tied_housing_is_ordered_by_its_matrix() {
+        let link = Link { between: ["foot", "seat"].map(str::to_owned), connection: Connection::Tie };
+        let tied = model("two_blocks.msh", &["lower", "upper"], "base", vec![link]);
+        assert_eq!(SystemMatrices::assemble_and_order(&tied).expect("matrices").ordering, None);
+    }
+}

@@ -7,6 +7,7 @@
 
 use super::metis::{Graph, nested_dissection};
 use super::{DenseMatrix, LinalgError, SparseMatrix};
+use rayon::prelude::*;
 
 /// Where the entries of a symmetric matrix are that has both triangles stored, in compressed columns.
 #[derive(Debug, Clone, Copy)]
@@ -18,7 +19,7 @@ pub(crate) struct Pattern<'a> {
 }
 
 impl<'a> Pattern<'a> {
-    fn of(a: &'a SparseMatrix) -> Self {
+    pub(crate) fn of(a: &'a SparseMatrix) -> Self {
         Self { offsets: a.indptr().into_raw_storage(), rows: a.indices() }
     }
 
@@ -82,7 +83,7 @@ impl Ordering {
         // of semidefinite matrices a row is empty if its diagonal is
         let empty = |a: &SparseMatrix, row| a.get(row, row).is_none_or(|value| *value == 0.0);
         let undetermined = |&&row: &&u32| empty(k, row as usize) && empty(m, row as usize);
-        match self.kept.iter().find(undetermined) {
+        match self.kept.par_iter().find_first(undetermined) {
             Some(row) => Err(LinalgError::Refused(format!(
                 "row {row} of stiffness and mass is empty: this degree of freedom is held by nothing and carries nothing, so that its motion is not determined; leave it out or hold it"
             ))),
@@ -121,23 +122,21 @@ impl Ordering {
     /// The rows of `x` (those kept, ascending) in this order.
     pub(super) fn forward(&self, x: &DenseMatrix) -> DenseMatrix {
         let mut y = DenseMatrix::zeros(x.nrows(), x.ncols());
-        for column in 0..x.ncols() {
-            let (to, from) = (y.col_as_slice_mut(column), x.col_as_slice(column));
-            for (&unknown, &entry) in self.kept.iter().zip(from) {
+        y.par_col_iter_mut().zip(x.par_col_iter()).for_each(|(mut to, from)| {
+            for (&unknown, &entry) in self.kept.iter().zip(from.iter()) {
                 to[self.new[unknown as usize] as usize] = entry;
             }
-        }
+        });
         y
     }
 
     /// The rows of `y`, which are in this order, as those kept, ascending.
     pub(super) fn backward(&self, y: &DenseMatrix, x: &mut DenseMatrix) {
-        for column in 0..y.ncols() {
-            let (to, from) = (x.col_as_slice_mut(column), y.col_as_slice(column));
-            for (&unknown, entry) in self.kept.iter().zip(to) {
+        x.par_col_iter_mut().zip(y.par_col_iter()).for_each(|(to, from)| {
+            for (&unknown, entry) in self.kept.iter().zip(to.iter_mut()) {
                 *entry = from[self.new[unknown as usize] as usize];
             }
-        }
+        });
     }
 }
 

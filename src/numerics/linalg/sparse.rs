@@ -109,9 +109,14 @@ pub fn sparse_times_dense(a: &SparseMatrix, x: &DenseMatrix) -> DenseMatrix {
 
 /// `A^T X` for a sparse `A` [n x m] and a dense `X` [n x k].
 pub fn transpose_times_dense(a: &SparseMatrix, x: &DenseMatrix) -> DenseMatrix {
-    DenseMatrix::from_fn(a.cols(), x.ncols(), |row, column| {
-        a.outer_view(row).map_or(0.0, |entries| entries.iter().map(|(inner, &value)| value * x[(inner, column)]).sum())
-    })
+    let mut product = DenseMatrix::zeros(a.cols(), x.ncols());
+    product.par_col_iter_mut().enumerate().for_each(|(column, product)| {
+        let x = x.col_as_slice(column);
+        for (product, entries) in product.iter_mut().zip(a.outer_iterator()) {
+            *product = entries.iter().map(|(inner, &value)| value * x[inner]).sum();
+        }
+    });
+    product
 }
 
 #[cfg(test)]

@@ -146,35 +146,37 @@ impl SymmetricMatrix {
     }
 
     /// `Y = A X` for `X` and `Y` [n x k]. Columns are independent: the result does not depend on the number of threads.
-    pub(super) fn times_into(&self, x: MatRef<'_, f64>, y: MatMut<'_, f64>) {
-        // fewer lanes load every entry more often, but no thread idles
-        if x.ncols() <= LANES / 2 || rayon::current_num_threads() > x.ncols().div_ceil(LANES) {
-            self.times_by::<{ LANES / 2 }>(x, y);
-        } else {
-            self.times_by::<LANES>(x, y);
+    pub(super) fn times_into(&self, x: MatRef<'_, f64>, mut y: MatMut<'_, f64>) {
+        self.stored_times(&self.values, x, y.rb_mut());
+        if let Some(followers) = &self.followers {
+            x.par_col_chunks(1).zip(y.par_col_chunks_mut(1)).for_each(|(x, y)| followers.add_times(x, y));
         }
     }
 
-    fn times_by<const L: usize>(&self, x: MatRef<'_, f64>, y: MatMut<'_, f64>) {
-        x.par_col_chunks(L).zip(y.par_col_chunks_mut(L)).for_each(|(x, mut y)| {
-            SCRATCH.with_borrow_mut(|scratch| self.times_block::<L>(x, y.rb_mut(), scratch));
-            if let Some(followers) = &self.followers {
-                followers.add_times(x, y);
-            }
+    /// `Y = A X` without followers for other values at the places of those stored.
+    fn stored_times(&self, values: &[f64], x: MatRef<'_, f64>, y: MatMut<'_, f64>) {
+        // fewer lanes load every entry more often, but no thread idles
+        if x.ncols() <= LANES / 2 || rayon::current_num_threads() > x.ncols().div_ceil(LANES) {
+            self.times_by::<{ LANES / 2 }>(values, x, y);
+        } else {
+            self.times_by::<LANES>(values, x, y);
+        }
+    }
+
+    fn times_by<const L: usize>(&self, values: &[f64], x: MatRef<'_, f64>, y: MatMut<'_, f64>) {
+        x.par_col_chunks(L).zip(y.par_col_chunks_mut(L)).for_each(|(x, y)| {
+            SCRATCH.with_borrow_mut(|scratch| self.times_block::<L>(values, x, y, scratch));
         });
     }
 
     /// Root of the sum of the squares of the terms `x_i a_ij x_j` of `x^T A x` for every column of `X` [n x k]: its
     /// round-off, in units of that of one entry, when the entries' errors are independent.
     pub(super) fn energy_scatters(&self, x: MatRef<'_, f64>) -> Vec<f64> {
-        let squared = Self {
-            offsets: self.offsets.clone(),
-            rows: self.rows.clone(),
-            values: self.values.iter().map(|value| value * value).collect(),
-            followers: None,
-        };
+        let squared: Vec<f64> = self.values.par_iter().map(|value| value * value).collect();
         let squares = DenseMatrix::from_fn(x.nrows(), x.ncols(), |i, j| x[(i, j)] * x[(i, j)]);
-        let (sums, diagonal) = (squared.times(squares.as_ref()), squared.diagonal());
+        let mut sums = DenseMatrix::zeros(x.nrows(), x.ncols());
+        self.stored_times(&squared, squares.as_ref(), sums.as_mut());
+        let diagonal: Vec<f64> = self.stored_diagonal().into_iter().map(|entry| entry * entry).collect();
         let scatter = |column: usize| -> f64 {
             let rows = squares.col_as_slice(column).iter().zip(sums.col_as_slice(column));
             let terms = rows.zip(&diagonal);
@@ -188,7 +190,13 @@ impl SymmetricMatrix {
         (0..x.ncols()).map(|column| (scatter(column) + further(column)).sqrt()).collect()
     }
 
-    fn times_block<const L: usize>(&self, x: MatRef<'_, f64>, mut y: MatMut<'_, f64>, scratch: &mut Scratch) {
+    fn times_block<const L: usize>(
+        &self,
+        values: &[f64],
+        x: MatRef<'_, f64>,
+        mut y: MatMut<'_, f64>,
+        scratch: &mut Scratch,
+    ) {
         let [lanes, product] = scratch;
         lanes.resize(self.order() * L, 0.0);
         product.clear();
@@ -202,7 +210,7 @@ impl SymmetricMatrix {
                 }
             }
         }
-        multiply(&self.offsets, &self.rows, &self.values, lanes, product);
+        multiply(&self.offsets, &self.rows, values, lanes, product);
         for (tile, rows) in product.chunks(TILE).enumerate() {
             for lane in 0..x.ncols() {
                 let column = y.rb_mut().col_mut(lane).subrows_mut(TILE * tile, rows.len());
