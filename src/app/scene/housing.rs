@@ -6,7 +6,8 @@ use crate::fe::assembly::SystemMatrices;
 use crate::fe::material::{ElasticMaterial, Material, MaterialError, OrthotropicMaterial};
 use crate::fe::mesh::{Mesh, MeshError};
 use crate::fe::model::{
-    Constraint, HousingDescription, HousingModel, HousingPart, HousingSupport, RingFrame, SupportShare, straighten,
+    Constraint, HousingDescription, HousingModel, HousingPart, HousingSupport, ModelError, RingFrame, SupportShare,
+    straighten,
 };
 use crate::files::{self, FileDigest};
 use crate::numerics::Watch;
@@ -30,6 +31,23 @@ impl AssembledHousing {
     /// # Errors
     /// [`ComputeError`] of mesh, model and elements.
     pub fn build(case: &Case, watch: &impl Watch) -> Result<Option<Self>, ComputeError> {
+        Self::assembled(case, watch, SystemMatrices::assemble)
+    }
+
+    /// The housing of a case without a ring, whose free degrees of freedom are factorised all together.
+    ///
+    /// # Errors
+    /// As [`AssembledHousing::build`].
+    pub(crate) fn of(case: &Case, watch: &impl Watch) -> Result<Self, ComputeError> {
+        let nothing = || case.broken(&Rule::nothing_to_model().at("housing"));
+        Self::assembled(case, watch, SystemMatrices::assemble_and_order)?.ok_or_else(|| nothing().into())
+    }
+
+    fn assembled(
+        case: &Case,
+        watch: &impl Watch,
+        assemble: fn(&HousingModel) -> Result<SystemMatrices, ModelError>,
+    ) -> Result<Option<Self>, ComputeError> {
         let Some(housing) = case.meshed_housing() else {
             return Ok(None);
         };
@@ -37,17 +55,8 @@ impl AssembledHousing {
         let mesh = read_mesh(case, housing, watch)?;
         watch.stage("assemble");
         let model = HousingModel::new(&mesh, description(case, housing)?)?;
-        let matrices = SystemMatrices::assemble(&model)?;
+        let matrices = assemble(&model)?;
         Ok(Some(Self { mesh, model, matrices }))
-    }
-
-    /// The housing of a case without a ring.
-    ///
-    /// # Errors
-    /// As [`AssembledHousing::build`].
-    pub(crate) fn of(case: &Case, watch: &impl Watch) -> Result<Self, ComputeError> {
-        let nothing = || case.broken(&Rule::nothing_to_model().at("housing"));
-        Self::build(case, watch)?.ok_or_else(|| nothing().into())
     }
 }
 

@@ -3,7 +3,7 @@
 use super::SystemMatrices;
 use crate::fe::model::{HousingModel, HousingPartition, RingTie, Rings};
 use crate::numerics::linalg::{
-    DenseMatrix, SparseMatrix, TripletBuilder, congruence, placed, sparse_times_dense, transpose_times_dense,
+    DenseMatrix, Ordering, SparseMatrix, TripletBuilder, congruence, placed, sparse_times_dense, transpose_times_dense,
 };
 
 /// Stiffness and mass over the housing's degrees of freedom, then the rings'; one of the two may be missing. Rows and
@@ -18,6 +18,8 @@ pub struct CoupledMatrices {
     pub free_dofs: Vec<usize>,
     /// What the coordinates mean.
     pub motions: CoupledMotions,
+    /// Order in which the free degrees of freedom are factorised, if it is known.
+    pub(crate) ordering: Option<Ordering>,
 }
 
 /// Displacements of housing and rings from the coordinates of both, and back.
@@ -56,6 +58,7 @@ impl CoupledMatrices {
             mass: with_rings(&matrices.mass, rings.mass()),
             free_dofs: free_dofs(housing_dof, partition),
             motions: CoupledMotions { recovery, housing_dof, ring_dof: rings.dof() },
+            ordering: None,
         }
     }
 
@@ -69,6 +72,7 @@ impl CoupledMatrices {
             mass: congruence(&matrices.mass, &recovery),
             free_dofs: free_dofs(housing_dof, partition),
             motions: CoupledMotions { recovery, housing_dof, ring_dof: 0 },
+            ordering: None,
         }
     }
 
@@ -83,6 +87,7 @@ impl CoupledMatrices {
                 housing_dof: model.dof(),
                 ring_dof: 0,
             },
+            ordering: matrices.ordering,
         }
     }
 
@@ -100,6 +105,7 @@ impl CoupledMatrices {
             mass: placed(mass, 0, order),
             free_dofs: (0..order).collect(),
             motions: CoupledMotions { recovery: TripletBuilder::new(0, order).build(), housing_dof: 0, ring_dof },
+            ordering: None,
         }
     }
 }

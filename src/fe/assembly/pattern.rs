@@ -1,6 +1,6 @@
 //! The sparsity pattern of a model from its node graph, and how to add blocks into it.
 
-use crate::numerics::linalg::SparseMatrix;
+use crate::numerics::linalg::{Pattern, SparseMatrix};
 use rayon::prelude::*;
 use std::ops::Range;
 
@@ -85,13 +85,64 @@ pub(super) enum Coupling {
     Same,
 }
 
+impl Coupling {
+    /// Entries a pair of nodes.
+    fn entries(self, dimension: usize) -> usize {
+        match self {
+            Self::Full => dimension * dimension,
+            Self::Same => dimension,
+        }
+    }
+}
+
+/// Where the entries of a matrix over a node graph are, in compressed columns.
+pub(super) struct Columns {
+    offsets: Vec<usize>,
+    rows: Vec<usize>,
+}
+
+impl Columns {
+    pub(super) fn new(graph: &NodeGraph, dimension: usize, coupling: Coupling) -> Self {
+        let (d, entries) = (dimension, coupling.entries(dimension));
+        let mut offsets = Vec::with_capacity(d * graph.nodes() + 1);
+        offsets.push(0);
+        for node in 0..graph.nodes() {
+            let (begin, height) = (entries * graph.starts[node], entries / d * graph.neighbours(node).len());
+            offsets.extend((1..=d).map(|component| begin + component * height));
+        }
+        let mut rows = vec![0; entries * graph.neighbours.len()];
+        let mut left = rows.as_mut_slice();
+        let mut pieces = Vec::with_capacity(graph.nodes().div_ceil(CHUNK));
+        for first in (0..graph.nodes()).step_by(CHUNK) {
+            let nodes = first..(first + CHUNK).min(graph.nodes());
+            let length = entries * (graph.starts[nodes.end] - graph.starts[first]);
+            pieces.push((nodes, left.split_off_mut(..length).unwrap_or_default()));
+        }
+        pieces.into_par_iter().for_each(|(nodes, rows)| {
+            let mut to = rows.iter_mut();
+            for (node, component) in nodes.flat_map(|node| (0..d).map(move |component| (node, component))) {
+                let firsts = graph.neighbours(node).iter().map(|&other| d * other as usize);
+                let own = match coupling {
+                    Coupling::Full => 0..d,
+                    Coupling::Same => component..component + 1,
+                };
+                let rows = firsts.flat_map(|first| own.clone().map(move |component| first + component));
+                rows.zip(to.by_ref()).for_each(|(row, to)| *to = row);
+            }
+        });
+        Self { offsets, rows }
+    }
+
+    pub(super) fn pattern(&self) -> Pattern<'_> {
+        Pattern { offsets: &self.offsets, rows: &self.rows }
+    }
+}
+
 /// Values of a matrix over a node graph, in compressed columns, `d` degrees of freedom a node.
 pub(super) struct BlockMatrix<'g> {
     graph: &'g NodeGraph,
     dimension: usize,
     coupling: Coupling,
-    /// Entries a pair of nodes.
-    entries: usize,
     values: Vec<f64>,
 }
 
@@ -105,17 +156,15 @@ pub(super) struct Local<'a> {
 
 impl<'g> BlockMatrix<'g> {
     pub(super) fn zeros(graph: &'g NodeGraph, dimension: usize, coupling: Coupling) -> Self {
-        let entries = match coupling {
-            Coupling::Full => dimension * dimension,
-            Coupling::Same => dimension,
-        };
-        Self { graph, dimension, coupling, entries, values: vec![0.0; entries * graph.neighbours.len()] }
+        let values = vec![0.0; coupling.entries(dimension) * graph.neighbours.len()];
+        Self { graph, dimension, coupling, values }
     }
 
     /// Adds matrices in their order. The columns are shared out among threads, every entry is summed by one of
     /// them in the order of `locals`: the result does not depend on how many there are.
     pub(super) fn add(&mut self, locals: &[Local<'_>]) {
-        let Self { graph, dimension, coupling, entries: per_node, .. } = *self;
+        let Self { graph, dimension, coupling, .. } = *self;
+        let per_node = coupling.entries(dimension);
         let mut rest = self.values.as_mut_slice();
         let mut shares = Vec::new();
         for columns in balanced(graph, rayon::current_num_threads()) {
@@ -144,24 +193,10 @@ impl<'g> BlockMatrix<'g> {
         });
     }
 
-    /// The matrix in compressed columns.
-    pub(super) fn into_matrix(self) -> SparseMatrix {
-        let (d, graph) = (self.dimension, self.graph);
-        let order = d * graph.nodes();
-        let mut offsets = Vec::with_capacity(order + 1);
-        let mut rows = Vec::with_capacity(self.values.len());
-        offsets.push(0);
-        for node in 0..graph.nodes() {
-            for component in 0..d {
-                let list = graph.neighbours(node).iter().map(|&other| d * other as usize);
-                match self.coupling {
-                    Coupling::Full => rows.extend(list.flat_map(|first| first..first + d)),
-                    Coupling::Same => rows.extend(list.map(|first| first + component)),
-                }
-                offsets.push(rows.len());
-            }
-        }
-        sprs::CsMat::new_csc((order, order), offsets, rows, self.values)
+    /// The matrix in its columns.
+    pub(super) fn into_matrix(self, columns: Columns) -> SparseMatrix {
+        let order = self.dimension * self.graph.nodes();
+        sprs::CsMat::new_csc((order, order), columns.offsets, columns.rows, self.values)
     }
 }
 

@@ -3,12 +3,14 @@
 //!
 //! Element matrices in parallel, a batch at a time.
 
-use super::pattern::{BlockMatrix, Coupling, Local, NodeGraph};
+use super::pattern::{BlockMatrix, Columns, Coupling, Local, NodeGraph};
 use crate::fe::element::ElementError;
 use crate::fe::element::continuum::{mass_into, nodal_mass_into, stiffness_into};
 use crate::fe::mesh::ElementKind;
 use crate::fe::model::{HousingElement, HousingModel, ModelError, NodalMatrix, RingTie};
-use crate::numerics::linalg::{DenseMatrix, SparseMatrix, congruence, sparse_times_dense, transpose_times_dense};
+use crate::numerics::linalg::{
+    DenseMatrix, Ordering, SparseMatrix, congruence, sparse_times_dense, transpose_times_dense,
+};
 use rayon::prelude::*;
 
 /// Matrices of a housing over all its degrees of freedom.
@@ -23,6 +25,8 @@ pub struct SystemMatrices {
     /// Mass times unit accelerations along the bearing's x and y [dof x 2], kg.
     pub weight: DenseMatrix,
     pub(crate) total_mass: f64,
+    /// Order in which the free degrees of freedom are factorised, if it is known.
+    pub(crate) ordering: Option<Ordering>,
 }
 
 impl SystemMatrices {
@@ -31,11 +35,36 @@ impl SystemMatrices {
     /// # Errors
     /// [`ModelError::Refused`] with the tag of an element that is inverted or degenerate.
     pub fn assemble(model: &HousingModel) -> Result<Self, ModelError> {
+        Self::with_order(model, |_| None)
+    }
+
+    /// Assembles a housing, and finds the order of its free degrees of freedom meanwhile.
+    ///
+    /// # Errors
+    /// As [`SystemMatrices::assemble`].
+    pub(crate) fn assemble_and_order(model: &HousingModel) -> Result<Self, ModelError> {
+        // who factorises finds out again why there is none
+        Self::with_order(model, |columns| Ordering::of_part(columns.pattern(), &model.free_dofs()).ok())
+    }
+
+    fn with_order(
+        model: &HousingModel,
+        order: impl FnOnce(&Columns) -> Option<Ordering> + Send,
+    ) -> Result<Self, ModelError> {
         let graph = node_graph(model);
-        let mut k = stiffness(model, &graph, None)?;
-        k.add(&locals(&model.springs));
-        let (mut stiffness, mut mass) = (k.into_matrix(), mass(model, &graph)?);
-        if let Some(tie) = model.tie_matrix() {
+        let columns = Columns::new(&graph, model.dimension, Coupling::Full);
+        let both = || -> Result<_, ModelError> {
+            let mut k = stiffness(model, &graph, None)?;
+            k.add(&locals(&model.springs));
+            Ok((k, mass(model, &graph)?))
+        };
+        let tie = model.tie_matrix();
+        // a tie changes the pattern
+        let untied = tie.is_none();
+        let (both, ordering) = rayon::join(both, || if untied { order(&columns) } else { None });
+        let (stiffness, mut mass) = both?;
+        let mut stiffness = stiffness.into_matrix(columns);
+        if let Some(tie) = tie {
             stiffness = congruence(&stiffness, &tie);
             mass = congruence(&mass, &tie);
         }
@@ -45,7 +74,7 @@ impl SystemMatrices {
         let weight = sparse_times_dense(&mass, &fall);
         // `a^T M a` of a unit acceleration a; tied nodes have empty rows and columns, so their mass counts once, where it was taken
         let total_mass = (0..model.dof()).map(|dof| fall[(dof, 0)] * weight[(dof, 0)]).sum();
-        Ok(Self { stiffness, mass, weight, total_mass })
+        Ok(Self { stiffness, mass, weight, total_mass, ordering })
     }
 
     /// Mass of the housing with its point masses, kg.
@@ -61,7 +90,8 @@ impl SystemMatrices {
                 stiffness: congruence(&self.stiffness, rotation),
                 mass: congruence(&self.mass, rotation),
                 weight: transpose_times_dense(rotation, &self.weight),
-                ..self
+                total_mass: self.total_mass,
+                ordering: None,
             },
         }
     }
@@ -87,7 +117,8 @@ impl StructuralStiffness {
             return Ok(None);
         }
         let graph = node_graph(model);
-        let matrix = stiffness(model, &graph, Some(&loss_factors))?.into_matrix();
+        let columns = Columns::new(&graph, model.dimension, Coupling::Full);
+        let matrix = stiffness(model, &graph, Some(&loss_factors))?.into_matrix(columns);
         let matrix = match model.tie_matrix() {
             Some(tie) => congruence(&matrix, &tie),
             None => matrix,
@@ -169,7 +200,7 @@ fn mass(model: &HousingModel, graph: &NodeGraph) -> Result<SparseMatrix, ModelEr
         |locals| m.add(locals),
     )?;
     m.add(&locals(&model.masses));
-    Ok(m.into_matrix())
+    Ok(m.into_matrix(Columns::new(graph, model.dimension, coupling)))
 }
 
 fn locals(matrices: &[NodalMatrix]) -> Vec<Local<'_>> {
@@ -227,4 +258,52 @@ pub(super) fn in_batches(
         consume(&locals);
     }
     Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::fe::material::Material;
+    use crate::fe::mesh::Mesh;
+    use crate::fe::model::{
+        Connection, Constraint, HousingDescription, HousingPart, HousingSupport, Link, SupportShare,
+    };
+    use crate::numerics::linalg::Pattern;
+    use crate::numerics::units::LengthUnit;
+    use std::path::Path;
+
+    fn model(file: &str, parts: &[&str], feet: &str, links: Vec<Link>) -> HousingModel {
+        let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/data").join(file);
+        let mesh = Mesh::read_gmsh(&path, LengthUnit::Millimetre).expect("a mesh");
+        let material = Material::new(70e9, 0.33, 2700.0).expect("aluminium");
+        let part = |group: &&str| HousingPart { group: (*group).to_owned(), material: material.into() };
+        let support = HousingSupport {
+            group: feet.to_owned(),
+            constraint: Constraint::Fixed([true, true, false]),
+            share: SupportShare::PerNode,
+        };
+        let parts = parts.iter().map(part).collect();
+        let description = HousingDescription { parts, supports: vec![support], links, ..HousingDescription::default() };
+        HousingModel::new(&mesh, description).expect("a model")
+    }
+
+    /// The order that is found before there is a value is that of the stiffness, on any number of threads.
+    #[test]
+    fn the_order_found_meanwhile_is_that_of_the_matrix() {
+        let held = model("pedestal_10k.msh", &["housing"], "feet", Vec::new());
+        for threads in [1, 2, 3] {
+            let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("threads");
+            let found = pool.install(|| SystemMatrices::assemble_and_order(&held)).expect("matrices");
+            let expected = Ordering::of_part(Pattern::of(&found.stiffness), &held.free_dofs()).expect("an order");
+            assert_eq!(found.ordering, Some(expected), "{threads}");
+        }
+    }
+
+    /// A tie gives the followed nodes the neighbours of those that follow: the graph of the elements is not the matrix's.
+    #[test]
+    fn a_tied_housing_is_ordered_by_its_matrix() {
+        let link = Link { between: ["foot", "seat"].map(str::to_owned), connection: Connection::Tie };
+        let tied = model("two_blocks.msh", &["lower", "upper"], "base", vec![link]);
+        assert_eq!(SystemMatrices::assemble_and_order(&tied).expect("matrices").ordering, None);
+    }
 }

@@ -34,10 +34,13 @@ impl FullModes {
         products: Option<Products<'_>>,
         watch: &impl Watch,
     ) -> Result<Self, ModalError> {
-        let CoupledMatrices { stiffness, mass, free_dofs: free, motions } = matrices;
+        let CoupledMatrices { stiffness, mass, free_dofs: free, motions, ordering } = matrices;
         let rows = mass.rows();
         watch.stage("order");
-        let problem = EigenProblem::restricted(&stiffness, &mass, &free)?;
+        let problem = match ordering {
+            Some(ordering) => EigenProblem::in_order([&stiffness, &mass], ordering)?,
+            None => EigenProblem::restricted(&stiffness, &mass, &free)?,
+        };
         drop((stiffness, mass));
         if let Some(choice) = problem.factor_choice() {
             watch.note(&format!("factorised by {}: {}", choice.by, choice.why));
@@ -98,6 +101,6 @@ impl HousingModel {
     /// # Errors
     /// [`ModalError`] of elements, factorisation, iteration or proof; [`ModalError::NoModes`] for a range without any.
     pub fn modes(&self, range: ModeRange) -> Result<ModalBasis, ModalError> {
-        housing_modes(self, SystemMatrices::assemble(self)?, range)
+        housing_modes(self, SystemMatrices::assemble_and_order(self)?, range)
     }
 }

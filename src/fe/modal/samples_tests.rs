@@ -229,7 +229,7 @@ pub(super) fn ringed(mesh: &Mesh, description: HousingDescription, ring: Ring, f
     let tie = RingTie::new(mesh, &model, "bore", &ring, radius, fit).expect("at the ring");
     let rings = Rings::one(ring.clone(), *model.frame());
     let matrices = SystemMatrices::assemble(&model).expect("matrices");
-    let CoupledMatrices { stiffness, mass, free_dofs, motions } = CoupledMatrices::new(&matrices, &tie, &rings);
+    let CoupledMatrices { stiffness, mass, free_dofs, motions, .. } = CoupledMatrices::new(&matrices, &tie, &rings);
     let problem = EigenProblem::restricted(&stiffness, &mass, &free_dofs).expect("an order");
     let mut basis = ModalBasis::of(&problem, ModeRange::Count(count)).expect("converges");
     let over_all = |shapes: &DenseMatrix| scattered_rows(shapes, &free_dofs, mass.rows());

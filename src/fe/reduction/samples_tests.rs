@@ -20,6 +20,7 @@ pub(super) fn rod(nodes: usize) -> SystemMatrices {
         mass: m.build(),
         weight: DenseMatrix::from_fn(nodes, 2, |_, axis| f64::from(u8::from(axis == 0))),
         total_mass: nodes as f64,
+        ordering: None,
     }
 }
 

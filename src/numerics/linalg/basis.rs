@@ -23,11 +23,33 @@ const NEARLY_DEPENDENT: f64 = 1e-6;
 /// they grew threefold from block to block, and 1000 equal bodies got motions below their lowest.
 const MOSTLY_INSIDE: f64 = std::f64::consts::FRAC_1_SQRT_2;
 
+/// Columns of zeros in memory that the system gives when it is written first, to the thread that writes.
+#[derive(Debug)]
+pub(super) struct Columns {
+    rows: usize,
+    entries: Vec<f64>,
+}
+
+impl Columns {
+    pub(super) fn new(rows: usize, columns: usize) -> Self {
+        Self { rows, entries: vec![0.0; rows * columns] }
+    }
+
+    fn count(&self) -> usize {
+        self.entries.len() / self.rows.max(1)
+    }
+
+    /// The first columns.
+    pub(super) fn first(&mut self, count: usize) -> MatMut<'_, f64> {
+        MatMut::from_column_major_slice_mut(&mut self.entries[..self.rows * count], self.rows, count)
+    }
+}
+
 /// Vectors V [n x size] with `V^T M V = 1`.
 #[derive(Debug)]
 pub(super) struct Basis<'p> {
     mass: &'p SymmetricMatrix,
-    vectors: DenseMatrix,
+    vectors: Columns,
     /// Number of vectors.
     pub size: usize,
 }
@@ -35,17 +57,18 @@ pub(super) struct Basis<'p> {
 impl<'p> Basis<'p> {
     /// An empty basis with room for so many vectors.
     pub(super) fn new(mass: &'p SymmetricMatrix, room: usize) -> Self {
-        Self { mass, vectors: DenseMatrix::zeros(mass.order(), room), size: 0 }
+        Self { mass, vectors: Columns::new(mass.order(), room), size: 0 }
     }
 
     /// How many more vectors it can hold.
     pub(super) fn room(&self) -> usize {
-        self.vectors.ncols() - self.size
+        self.vectors.count() - self.size
     }
 
     /// V [n x size].
     pub(super) fn vectors(&self) -> MatRef<'_, f64> {
-        self.vectors.as_ref().subcols(0, self.size)
+        let rows = self.vectors.rows;
+        MatRef::from_column_major_slice(&self.vectors.entries[..rows * self.size], rows, self.size)
     }
 
     /// Adds what `w` [n x k] adds to the span, as far as there is room; returns how many vectors that are. `product` is
@@ -60,11 +83,12 @@ impl<'p> Basis<'p> {
         mut spare: MatMut<'_, f64>,
     ) -> Result<usize, LinalgError> {
         let lengths = norms(w.rb(), product.rb());
-        for (column, &length) in lengths.iter().enumerate() {
+        let both = w.rb_mut().par_col_iter_mut().zip(product.rb_mut().par_col_iter_mut());
+        both.zip(lengths).for_each(|((w, product), length)| {
             let factor = if length > 0.0 { length.recip() } else { 0.0 };
-            scale(w.rb_mut().col_mut(column), factor);
-            scale(product.rb_mut().col_mut(column), factor);
-        }
+            scale(w, factor);
+            scale(product, factor);
+        });
         let mut count = w.ncols();
         for _ in 0..2 {
             let (w, product) = (&mut w, &mut product);
@@ -80,7 +104,7 @@ impl<'p> Basis<'p> {
             self.mass.times_into(columns(w, count).rb(), columns(product, count));
         }
         let added = count.min(self.room());
-        self.vectors.as_mut().subcols_mut(self.size, added).copy_from(w.rb().subcols(0, added));
+        copy(self.vectors.first(self.size + added).subcols_mut(self.size, added), w.rb().subcols(0, added));
         self.size += added;
         Ok(added)
     }
@@ -101,7 +125,7 @@ impl<'p> Basis<'p> {
     pub(super) fn rotate(&mut self, y: MatRef<'_, f64>) {
         let vectors = times(self.vectors(), y);
         self.size = y.ncols();
-        self.vectors.as_mut().subcols_mut(0, self.size).copy_from(&vectors);
+        copy(self.vectors.first(self.size), vectors.as_ref());
     }
 }
 
@@ -136,6 +160,11 @@ pub(super) fn tall_times(to: MatMut<'_, f64>, add: Accum, a: MatRef<'_, f64>, b:
     }
     pieces.push((to, a));
     pieces.into_par_iter().for_each(|(to, a)| matmul(to, add, a, b, factor, Par::Seq));
+}
+
+/// `to = from`, of which threads share the columns.
+pub(super) fn copy(to: MatMut<'_, f64>, from: MatRef<'_, f64>) {
+    to.par_col_iter_mut().zip(from.par_col_iter()).for_each(|(mut to, from)| to.copy_from(from));
 }
 
 /// The first columns.
@@ -181,7 +210,7 @@ fn orthonormalise(
     let mut rotate = |mut a: MatMut<'_, f64>| {
         let mut turned = columns(&mut spare, kept.len());
         tall_times(turned.rb_mut(), Accum::Replace, a.rb(), turn.as_ref(), 1.0);
-        columns(&mut a, kept.len()).copy_from(turned.rb());
+        copy(columns(&mut a, kept.len()), turned.rb());
     };
     rotate(w);
     rotate(product);

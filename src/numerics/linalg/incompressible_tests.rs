@@ -1,8 +1,7 @@
 //! Factors in single precision of nearly incompressible material: used where they serve, refused where they do not.
 
 use super::super::Plan;
-use super::super::ordering::Ordering;
-use super::super::{DenseMatrix, SparseMatrix};
+use super::super::{DenseMatrix, Ordering, Pattern, SparseMatrix};
 use super::*;
 use crate::fe::assembly::SystemMatrices;
 use crate::fe::material::Material;
@@ -42,7 +41,7 @@ fn single_precision_is_left_when_it_does_not_serve() {
         (0.499_999_99, Some(false)),
     ] {
         let (k, m, free) = block(poisson);
-        let ordering = Ordering::of_part(&k, &free).expect("an order");
+        let ordering = Ordering::of_part(Pattern::of(&k), &free).expect("an order");
         let stiffness = SymmetricMatrix::permuted(&k, &ordering);
         let mass = SymmetricMatrix::permuted(&m, &ordering);
         let symbolic = Arc::new(Plan::of(&stiffness).expect("analysed"));

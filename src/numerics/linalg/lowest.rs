@@ -5,12 +5,13 @@
 //! corrections `F^-1 (K x - lambda M x)` (Davidson, J. Comput. Phys. 17 (1975) 87-94), take them to the accuracy of K and M.
 //! Blocks load the factor once for all their vectors: eight together cost 1.5 to 2.9 times one alone.
 
-use super::basis::{Basis, norms, tall_times, times};
+use super::basis::{Basis, Columns, copy, norms, tall_times, times};
 use super::dense::pseudo_random;
 use super::{DenseMatrix, Factor, LinalgError, SymmetricMatrix, SymmetricSpectrum, symmetric_eigen};
 use crate::numerics::Told;
+use faer::Accum;
 use faer::prelude::*;
-use faer::{Accum, MatMut};
+use rayon::prelude::*;
 
 /// Vectors that the Krylov space grows by.
 const BLOCK: usize = 8;
@@ -80,7 +81,7 @@ pub(super) struct Search<'p> {
     told: Told<'p>,
     /// Three blocks of vectors [n x CORRECTED] that every step overwrites: new memory would cost more than some of the
     /// products (a page fault for each 4 KiB).
-    blocks: [DenseMatrix; 3],
+    blocks: [Columns; 3],
 }
 
 /// Vectors of the largest basis for so many pairs: two full blocks of corrections fit beside the Krylov space. With room
@@ -120,7 +121,7 @@ impl<'p> Search<'p> {
             started: 0,
             done: vec![None; pursued],
             told,
-            blocks: [(); 3].map(|()| DenseMatrix::zeros(mass.order(), CORRECTED)),
+            blocks: [(); 3].map(|()| Columns::new(mass.order(), CORRECTED)),
         }
     }
 
@@ -136,21 +137,21 @@ impl<'p> Search<'p> {
         let before = self.basis.size;
         self.started += 1;
         let start = pseudo_random(self.mass.order(), BLOCK, self.started);
-        self.mass.times_into(start.as_ref(), first(&mut self.blocks[0], BLOCK));
+        self.mass.times_into(start.as_ref(), self.blocks[0].first(BLOCK));
         let mut width = BLOCK;
         while self.basis.size < self.krylov {
             let [block, product, _] = &mut self.blocks;
-            let mut block = first(block, width);
+            let mut block = block.first(width);
             (self.told)(0.5 * self.basis.size as f64 / self.krylov as f64);
             factor.solve(block.rb_mut());
             factor.check()?;
-            self.mass.times_into(block.rb(), first(product, width));
+            self.mass.times_into(block.rb(), product.first(width));
             width = self.extend(width)?;
             if width == 0 {
                 break;
             }
             let [block, product, _] = &mut self.blocks;
-            first(block, width).copy_from(first(product, width));
+            copy(block.first(width), product.first(width).rb());
         }
         self.project(before);
         Ok(())
@@ -160,7 +161,7 @@ impl<'p> Search<'p> {
     /// added.
     fn extend(&mut self, width: usize) -> Result<usize, LinalgError> {
         let [block, product, spare] = &mut self.blocks;
-        self.basis.extend(first(block, width), first(product, width), first(spare, width))
+        self.basis.extend(block.first(width), product.first(width), spare.first(width))
     }
 
     /// Completes `V^T K V` from a vector on: many at once, so that the basis is read once for all of them. Overwrites the
@@ -169,7 +170,7 @@ impl<'p> Search<'p> {
         let size = self.basis.size;
         for begin in (from..size).step_by(CORRECTED) {
             let width = CORRECTED.min(size - begin);
-            let (vectors, mut stiff) = (self.basis.vectors(), first(&mut self.blocks[2], width));
+            let (vectors, mut stiff) = (self.basis.vectors(), self.blocks[2].first(width));
             let new = vectors.subcols(begin, width);
             self.stiffness.times_into(new, stiff.rb_mut());
             let known = vectors.subcols(0, begin + width);
@@ -302,26 +303,26 @@ impl<'p> Search<'p> {
         let combinations = columns(&spectrum.vectors, chosen);
         let [vectors, heavy, remainders] = &mut self.blocks;
         let width = chosen.len();
-        let mut vectors = first(vectors, width);
-        let (mut heavy, mut remainders) = (first(heavy, width), first(remainders, width));
+        let mut vectors = vectors.first(width);
+        let (mut heavy, mut remainders) = (heavy.first(width), remainders.first(width));
         tall_times(vectors.rb_mut(), Accum::Replace, self.basis.vectors(), combinations.as_ref(), 1.0);
         self.mass.times_into(vectors.rb(), heavy.rb_mut());
         self.stiffness.times_into(vectors.rb(), remainders.rb_mut());
-        let mut residuals = Vec::with_capacity(chosen.len());
-        for (column, &place) in chosen.iter().enumerate() {
+        let pairs = remainders.rb_mut().par_col_iter_mut().zip(heavy.rb().par_col_iter()).zip(chosen);
+        let residuals = pairs.map(|((mut remainder, heavy), &place)| {
             let value = spectrum.values[place];
-            let (mut remainder, heavy) = (remainders.rb_mut().col_mut(column), heavy.rb().col(column));
             let scale = remainder.norm_l2() + (value - self.shift).abs() * heavy.norm_l2();
             for (entry, product) in remainder.rb_mut().iter_mut().zip(heavy.iter()) {
                 *entry -= value * product;
             }
-            residuals.push(remainder.norm_l2() / scale);
-        }
-        vectors.copy_from(remainders.rb());
+            remainder.norm_l2() / scale
+        });
+        let residuals: Vec<f64> = residuals.collect();
+        copy(vectors.rb_mut(), remainders.rb());
         factor.solve(vectors.rb_mut());
         self.mass.times_into(vectors.rb(), heavy.rb_mut());
         let lengths = norms(vectors.rb(), heavy.rb());
-        let sizes = chosen.iter().enumerate().map(|(column, &place)| {
+        let sizes = chosen.par_iter().enumerate().map(|(column, &place)| {
             let energy: f64 = remainders.rb().col(column).transpose() * vectors.rb().col(column);
             let energy = energy.abs() / (spectrum.values[place] - self.shift).abs();
             [lengths[column], residuals[column], energy]
@@ -334,17 +335,12 @@ impl<'p> Search<'p> {
         for block in &mut self.blocks[..2] {
             for (place, &column) in kept.iter().enumerate() {
                 if place < column {
-                    let (mut to, from) = block.as_mut().split_at_col_mut(column);
+                    let (mut to, from) = block.first(column + 1).split_at_col_mut(column);
                     to.rb_mut().col_mut(place).copy_from(from.rb().col(0));
                 }
             }
         }
     }
-}
-
-/// The first columns.
-fn first(a: &mut DenseMatrix, count: usize) -> MatMut<'_, f64> {
-    a.as_mut().subcols_mut(0, count)
 }
 
 /// Some columns of a matrix.

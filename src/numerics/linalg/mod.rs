@@ -60,7 +60,7 @@ pub(crate) use lu::SmallLu;
 pub(crate) use mumps::abandon;
 #[cfg(feature = "mumps-mpi")]
 pub(crate) use mumps::joined;
-pub(in crate::numerics::linalg) use ordering::Ordering;
+pub(crate) use ordering::{Ordering, Pattern};
 pub use plan::FactorChoice;
 pub(in crate::numerics::linalg) use plan::Plan;
 pub use sparse::{SparseMatrix, TripletBuilder, sparse_times_dense, submatrix, transpose_times_dense};

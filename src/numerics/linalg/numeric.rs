@@ -14,7 +14,11 @@ use super::tree::lock;
 use super::{LinalgError, SymmetricMatrix};
 use faer::MatMut;
 use faer::prelude::*;
+use rayon::prelude::*;
 use std::sync::Mutex;
+
+/// Rows that are turned from columns to lanes at once: they stay in the first cache.
+const TILE: usize = 256;
 
 /// Block-diagonal part of `L B L^T` off the diagonal, and the order of the pivots within the panels.
 #[derive(Debug)]
@@ -110,31 +114,33 @@ impl<T: Precision> NumericFactor<T> {
     }
 
     /// The same in blocks of `L` columns, which are filled up with zeros.
-    fn solve_blocks<const L: usize>(&self, symbolic: &Symbolic, mut b: MatMut<'_, f64>) {
+    fn solve_blocks<const L: usize>(&self, symbolic: &Symbolic, b: MatMut<'_, f64>) {
         let order = self.scale.len();
         let mut x = vec![[T::default(); L]; order * b.ncols().div_ceil(L)];
         for (block, x) in x.chunks_exact_mut(order.max(1)).enumerate() {
-            let width = L.min(b.ncols() - L * block);
-            for lane in 0..width {
-                let column = b.rb().col(L * block + lane).iter();
-                for ((row, entry), scale) in x.iter_mut().zip(column).zip(&self.scale) {
-                    row[lane] = T::rounded(scale * entry);
+            let columns = b.rb().subcols(L * block, L.min(b.ncols() - L * block));
+            x.par_chunks_mut(TILE).zip(self.scale.par_chunks(TILE)).enumerate().for_each(|(tile, (rows, scale))| {
+                for lane in 0..columns.ncols() {
+                    let entries = columns.col(lane).subrows(TILE * tile, rows.len()).iter();
+                    for ((row, entry), scale) in rows.iter_mut().zip(entries).zip(scale) {
+                        row[lane] = T::rounded(scale * entry);
+                    }
                 }
-            }
+            });
         }
         let pivoting =
             self.pivots.as_ref().map(|pivots| Pivoting { below_diagonal: &pivots.below_diagonal, old: &pivots.old });
         let triangles = Triangles { symbolic, values: &self.values, pivoting };
         substitute(&triangles, &mut x);
-        for (block, x) in x.chunks_exact(order.max(1)).enumerate() {
-            let width = L.min(b.ncols() - L * block);
-            for lane in 0..width {
-                let column = b.rb_mut().col_mut(L * block + lane).iter_mut();
-                for ((row, entry), scale) in x.iter().zip(column).zip(&self.scale) {
-                    *entry = scale * row[lane].exact();
+        let x = &x;
+        b.par_row_chunks_mut(TILE).zip(self.scale.par_chunks(TILE)).enumerate().for_each(|(tile, (mut b, scale))| {
+            for column in 0..b.ncols() {
+                let rows = &x[column / L * order + TILE * tile..][..scale.len()];
+                for ((row, entry), scale) in rows.iter().zip(b.rb_mut().col_mut(column).iter_mut()).zip(scale) {
+                    *entry = scale * row[column % L].exact();
                 }
             }
-        }
+        });
     }
 
     /// Number of negative eigenvalues of the factorised matrix (Sylvester's law of inertia).

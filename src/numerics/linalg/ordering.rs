@@ -7,14 +7,38 @@
 
 use super::metis::{Graph, nested_dissection};
 use super::{DenseMatrix, LinalgError, SparseMatrix};
+use rayon::prelude::*;
+
+/// Where the entries of a symmetric matrix are that has both triangles stored, in compressed columns.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Pattern<'a> {
+    /// Where each column begins in `rows`, one more than columns.
+    pub offsets: &'a [usize],
+    /// Rows, those of each column ascending.
+    pub rows: &'a [usize],
+}
+
+impl<'a> Pattern<'a> {
+    pub(crate) fn of(a: &'a SparseMatrix) -> Self {
+        Self { offsets: a.indptr().into_raw_storage(), rows: a.indices() }
+    }
+
+    fn order(&self) -> usize {
+        self.offsets.len() - 1
+    }
+
+    fn column(&self, index: usize) -> &'a [usize] {
+        &self.rows[self.offsets[index]..self.offsets[index + 1]]
+    }
+}
 
 /// An order of the unknowns.
 #[derive(Debug, Clone, PartialEq)]
-pub(super) struct Ordering {
+pub(crate) struct Ordering {
     /// `old[new]`: which unknown comes at this place.
-    pub old: Vec<u32>,
+    pub(super) old: Vec<u32>,
     /// `new[old]`: at which place an unknown comes; [`ABSENT`] for one that is left out.
-    pub new: Vec<u32>,
+    pub(super) new: Vec<u32>,
     /// The unknowns that are ordered, ascending.
     kept: Vec<u32>,
 }
@@ -40,7 +64,7 @@ impl Ordering {
     /// As [`Ordering::of_part`].
     pub(super) fn of(a: &SparseMatrix) -> Result<Self, LinalgError> {
         let all: Vec<usize> = (0..a.rows()).collect();
-        Self::of_part(a, &all)
+        Self::of_part(Pattern::of(a), &all)
     }
 
     /// Order of the rows and columns `kept` (ascending) of a stiffness K, none of which has neither stiffness nor mass.
@@ -48,13 +72,22 @@ impl Ordering {
     /// # Errors
     /// [`LinalgError::Refused`] for an empty row of K and M; as [`Ordering::of_part`].
     pub(super) fn of_problem(k: &SparseMatrix, m: &SparseMatrix, kept: &[usize]) -> Result<Self, LinalgError> {
+        Self::of_part(Pattern::of(k), kept)?.of_determined(k, m)
+    }
+
+    /// This order, if each of its unknowns has stiffness or mass.
+    ///
+    /// # Errors
+    /// [`LinalgError::Refused`] for an empty row of K and M.
+    pub(super) fn of_determined(self, k: &SparseMatrix, m: &SparseMatrix) -> Result<Self, LinalgError> {
         // of semidefinite matrices a row is empty if its diagonal is
         let empty = |a: &SparseMatrix, row| a.get(row, row).is_none_or(|value| *value == 0.0);
-        match kept.iter().find(|&&row| empty(k, row) && empty(m, row)) {
-            Some(&row) => Err(LinalgError::Refused(format!(
+        let undetermined = |&&row: &&u32| empty(k, row as usize) && empty(m, row as usize);
+        match self.kept.par_iter().find_first(undetermined) {
+            Some(row) => Err(LinalgError::Refused(format!(
                 "row {row} of stiffness and mass is empty: this degree of freedom is held by nothing and carries nothing, so that its motion is not determined; leave it out or hold it"
             ))),
-            None => Self::of_part(k, kept),
+            None => Ok(self),
         }
     }
 
@@ -62,8 +95,8 @@ impl Ordering {
     ///
     /// # Errors
     /// [`LinalgError::Factorisation`] for a matrix with more than 2^31 entries or when METIS gives up.
-    pub(super) fn of_part(a: &SparseMatrix, kept: &[usize]) -> Result<Self, LinalgError> {
-        let order = a.rows();
+    pub(crate) fn of_part(a: Pattern<'_>, kept: &[usize]) -> Result<Self, LinalgError> {
+        let order = a.order();
         let failed = |reason| LinalgError::Factorisation { order, reason };
         let runs = Runs::of(a, kept);
         let graph = runs.graph(a).ok_or_else(|| failed("more than 2^31 entries"))?;
@@ -89,23 +122,21 @@ impl Ordering {
     /// The rows of `x` (those kept, ascending) in this order.
     pub(super) fn forward(&self, x: &DenseMatrix) -> DenseMatrix {
         let mut y = DenseMatrix::zeros(x.nrows(), x.ncols());
-        for column in 0..x.ncols() {
-            let (to, from) = (y.col_as_slice_mut(column), x.col_as_slice(column));
-            for (&unknown, &entry) in self.kept.iter().zip(from) {
+        y.par_col_iter_mut().zip(x.par_col_iter()).for_each(|(mut to, from)| {
+            for (&unknown, &entry) in self.kept.iter().zip(from.iter()) {
                 to[self.new[unknown as usize] as usize] = entry;
             }
-        }
+        });
         y
     }
 
     /// The rows of `y`, which are in this order, as those kept, ascending.
     pub(super) fn backward(&self, y: &DenseMatrix, x: &mut DenseMatrix) {
-        for column in 0..y.ncols() {
-            let (to, from) = (x.col_as_slice_mut(column), y.col_as_slice(column));
-            for (&unknown, entry) in self.kept.iter().zip(to) {
+        x.par_col_iter_mut().zip(y.par_col_iter()).for_each(|(to, from)| {
+            for (&unknown, entry) in self.kept.iter().zip(to.iter_mut()) {
                 *entry = from[self.new[unknown as usize] as usize];
             }
-        }
+        });
     }
 }
 
@@ -117,13 +148,8 @@ struct Runs<'k> {
 }
 
 impl<'k> Runs<'k> {
-    fn of(a: &SparseMatrix, kept: &'k [usize]) -> Self {
-        let offsets = a.indptr();
-        let offsets = offsets.raw_storage();
-        let column = |place: usize| {
-            let j = kept[place];
-            &a.indices()[offsets[j]..offsets[j + 1]]
-        };
+    fn of(a: Pattern<'_>, kept: &'k [usize]) -> Self {
+        let column = |place: usize| a.column(kept[place]);
         let begins = |&place: &usize| place == 0 || column(place) != column(place - 1);
         let mut firsts: Vec<usize> = (0..kept.len()).filter(begins).collect();
         firsts.push(kept.len());
@@ -135,9 +161,9 @@ impl<'k> Runs<'k> {
     }
 
     /// Their graph; `None` if it is too large for METIS's integers.
-    fn graph(&self, a: &SparseMatrix) -> Option<Graph> {
+    fn graph(&self, a: Pattern<'_>) -> Option<Graph> {
         let runs = self.firsts.len() - 1;
-        let mut run_of = vec![NONE; a.cols()];
+        let mut run_of = vec![NONE; a.order()];
         for run in 0..runs {
             for &unknown in self.members(run) {
                 run_of[unknown] = run;
@@ -146,7 +172,7 @@ impl<'k> Runs<'k> {
         let mut graph = Graph { starts: vec![0], neighbours: Vec::new(), weights: Vec::with_capacity(runs) };
         for run in 0..runs {
             let mut last = NONE;
-            for (row, _) in a.outer_view(self.members(run)[0])?.iter() {
+            for &row in a.column(self.members(run)[0]) {
                 // rows ascend, so do their runs
                 let other = run_of[row];
                 if other != NONE && other != last && other != run {

@@ -2,6 +2,7 @@
 
 use super::DenseMatrix;
 use nalgebra_sparse::{CooMatrix, CscMatrix};
+use rayon::prelude::*;
 
 /// Sparse matrix in compressed columns, rows sorted; a symmetric matrix stores both triangles.
 pub type SparseMatrix = sprs::CsMat<f64>;
@@ -96,22 +97,26 @@ pub(crate) fn scattered_rows(part: &DenseMatrix, rows: &[usize], order: usize) -
 /// `A X` for a sparse `A` [n x m] and a dense `X` [m x k].
 pub fn sparse_times_dense(a: &SparseMatrix, x: &DenseMatrix) -> DenseMatrix {
     let mut product = DenseMatrix::zeros(a.rows(), x.ncols());
-    for column in 0..x.ncols() {
-        for (inner, entries) in a.outer_iterator().enumerate() {
-            let factor = x[(inner, column)];
+    product.par_col_iter_mut().enumerate().for_each(|(column, mut product)| {
+        for (entries, &factor) in a.outer_iterator().zip(x.col_as_slice(column)) {
             for (row, &value) in entries.iter() {
-                product[(row, column)] += value * factor;
+                product[row] += value * factor;
             }
         }
-    }
+    });
     product
 }
 
 /// `A^T X` for a sparse `A` [n x m] and a dense `X` [n x k].
 pub fn transpose_times_dense(a: &SparseMatrix, x: &DenseMatrix) -> DenseMatrix {
-    DenseMatrix::from_fn(a.cols(), x.ncols(), |row, column| {
-        a.outer_view(row).map_or(0.0, |entries| entries.iter().map(|(inner, &value)| value * x[(inner, column)]).sum())
-    })
+    let mut product = DenseMatrix::zeros(a.cols(), x.ncols());
+    product.par_col_iter_mut().enumerate().for_each(|(column, product)| {
+        let x = x.col_as_slice(column);
+        for (product, entries) in product.iter_mut().zip(a.outer_iterator()) {
+            *product = entries.iter().map(|(inner, &value)| value * x[inner]).sum();
+        }
+    });
+    product
 }
 
 #[cfg(test)]

@@ -12,6 +12,9 @@ use std::cell::RefCell;
 /// Vectors that are multiplied at once: an entry is loaded once for all of them.
 const LANES: usize = 8;
 
+/// Columns that one thread permutes in a row.
+const COLUMNS: usize = 2048;
+
 /// Rows that are turned from columns to lanes at once: they stay in the first cache.
 const TILE: usize = 256;
 
@@ -31,29 +34,41 @@ pub(super) struct SymmetricMatrix {
 impl SymmetricMatrix {
     /// The matrix `a` [n x n], both triangles stored, in another order and without what that leaves out.
     pub(super) fn permuted(a: &SparseMatrix, ordering: &Ordering) -> Self {
-        let part = ordering.old.len() as f64 / a.cols().max(1) as f64;
-        let stored = (part * (a.nnz() / 2 + a.cols()) as f64) as usize;
-        let mut matrix = Self {
-            offsets: Vec::with_capacity(a.cols() + 1),
-            rows: Vec::with_capacity(stored),
-            values: Vec::with_capacity(stored),
-            followers: None,
+        let begins = a.indptr().into_raw_storage();
+        let below = |place: usize| {
+            let column = ordering.old[place] as usize;
+            let range = begins[column]..begins[column + 1];
+            let rows = a.indices()[range.clone()].iter().map(|&row| ordering.new[row]);
+            let entries = rows.zip(a.data()[range].iter().copied());
+            entries.filter(move |entry| entry.0 != ABSENT && entry.0 as usize >= place)
         };
-        matrix.offsets.push(0);
-        let mut column: Vec<(u32, f64)> = Vec::new();
-        for (place, &old) in ordering.old.iter().enumerate() {
-            column.clear();
-            if let Some(entries) = a.outer_view(old as usize) {
-                let entries = entries.iter().map(|(row, &value)| (ordering.new[row], value));
-                let below = |entry: &(u32, f64)| entry.0 != ABSENT && entry.0 as usize >= place;
-                column.extend(entries.filter(below));
-            }
-            column.sort_unstable_by_key(|entry| entry.0);
-            matrix.rows.extend(column.iter().map(|entry| entry.0));
-            matrix.values.extend(column.iter().map(|entry| entry.1));
-            matrix.offsets.push(matrix.rows.len() as u32);
+        let order = ordering.old.len();
+        let mut offsets = vec![0; order + 1];
+        offsets[1..].par_iter_mut().enumerate().for_each(|(place, length)| *length = below(place).count() as u32);
+        for place in 0..order {
+            offsets[place + 1] += offsets[place];
         }
-        matrix
+        let stored = offsets[order] as usize;
+        let (mut rows, mut values) = (vec![0; stored], vec![0.0; stored]);
+        let (mut rows_left, mut values_left) = (&mut rows[..], &mut values[..]);
+        let mut pieces = Vec::with_capacity(order.div_ceil(COLUMNS));
+        for first in (0..order).step_by(COLUMNS) {
+            let last = (first + COLUMNS).min(order);
+            let length = (offsets[last] - offsets[first]) as usize;
+            let own = (rows_left.split_off_mut(..length), values_left.split_off_mut(..length));
+            pieces.push((first..last, own.0.unwrap_or_default(), own.1.unwrap_or_default()));
+        }
+        pieces.into_par_iter().for_each(|(places, rows, values)| {
+            let mut column: Vec<(u32, f64)> = Vec::new();
+            let mut to = rows.iter_mut().zip(values);
+            for place in places {
+                column.clear();
+                column.extend(below(place));
+                column.sort_unstable_by_key(|entry| entry.0);
+                column.iter().zip(to.by_ref()).for_each(|(entry, (row, value))| (*row, *value) = *entry);
+            }
+        });
+        Self { offsets, rows, values, followers: None }
     }
 
     /// Number of rows.
@@ -117,7 +132,7 @@ impl SymmetricMatrix {
 
     /// Whether every entry of another matrix has a place in this one.
     pub(super) fn covers(&self, other: &Self) -> bool {
-        (0..self.order()).all(|column| {
+        (0..self.order()).into_par_iter().all(|column| {
             let mut places = self.column(column);
             other.column(column).all(|(row, _)| places.any(|place| place.0 == row))
         })
@@ -131,35 +146,37 @@ impl SymmetricMatrix {
     }
 
     /// `Y = A X` for `X` and `Y` [n x k]. Columns are independent: the result does not depend on the number of threads.
-    pub(super) fn times_into(&self, x: MatRef<'_, f64>, y: MatMut<'_, f64>) {
-        // fewer lanes load every entry more often, but no thread idles
-        if x.ncols() <= LANES / 2 || rayon::current_num_threads() > x.ncols().div_ceil(LANES) {
-            self.times_by::<{ LANES / 2 }>(x, y);
-        } else {
-            self.times_by::<LANES>(x, y);
+    pub(super) fn times_into(&self, x: MatRef<'_, f64>, mut y: MatMut<'_, f64>) {
+        self.stored_times(&self.values, x, y.rb_mut());
+        if let Some(followers) = &self.followers {
+            x.par_col_chunks(1).zip(y.par_col_chunks_mut(1)).for_each(|(x, y)| followers.add_times(x, y));
         }
     }
 
-    fn times_by<const L: usize>(&self, x: MatRef<'_, f64>, y: MatMut<'_, f64>) {
-        x.par_col_chunks(L).zip(y.par_col_chunks_mut(L)).for_each(|(x, mut y)| {
-            SCRATCH.with_borrow_mut(|scratch| self.times_block::<L>(x, y.rb_mut(), scratch));
-            if let Some(followers) = &self.followers {
-                followers.add_times(x, y);
-            }
+    /// `Y = A X` without followers for other values at the places of those stored.
+    fn stored_times(&self, values: &[f64], x: MatRef<'_, f64>, y: MatMut<'_, f64>) {
+        // fewer lanes load every entry more often, but no thread idles
+        if x.ncols() <= LANES / 2 || rayon::current_num_threads() > x.ncols().div_ceil(LANES) {
+            self.times_by::<{ LANES / 2 }>(values, x, y);
+        } else {
+            self.times_by::<LANES>(values, x, y);
+        }
+    }
+
+    fn times_by<const L: usize>(&self, values: &[f64], x: MatRef<'_, f64>, y: MatMut<'_, f64>) {
+        x.par_col_chunks(L).zip(y.par_col_chunks_mut(L)).for_each(|(x, y)| {
+            SCRATCH.with_borrow_mut(|scratch| self.times_block::<L>(values, x, y, scratch));
         });
     }
 
     /// Root of the sum of the squares of the terms `x_i a_ij x_j` of `x^T A x` for every column of `X` [n x k]: its
     /// round-off, in units of that of one entry, when the entries' errors are independent.
     pub(super) fn energy_scatters(&self, x: MatRef<'_, f64>) -> Vec<f64> {
-        let squared = Self {
-            offsets: self.offsets.clone(),
-            rows: self.rows.clone(),
-            values: self.values.iter().map(|value| value * value).collect(),
-            followers: None,
-        };
+        let squared: Vec<f64> = self.values.par_iter().map(|value| value * value).collect();
         let squares = DenseMatrix::from_fn(x.nrows(), x.ncols(), |i, j| x[(i, j)] * x[(i, j)]);
-        let (sums, diagonal) = (squared.times(squares.as_ref()), squared.diagonal());
+        let mut sums = DenseMatrix::zeros(x.nrows(), x.ncols());
+        self.stored_times(&squared, squares.as_ref(), sums.as_mut());
+        let diagonal: Vec<f64> = self.stored_diagonal().into_iter().map(|entry| entry * entry).collect();
         let scatter = |column: usize| -> f64 {
             let rows = squares.col_as_slice(column).iter().zip(sums.col_as_slice(column));
             let terms = rows.zip(&diagonal);
@@ -173,7 +190,13 @@ impl SymmetricMatrix {
         (0..x.ncols()).map(|column| (scatter(column) + further(column)).sqrt()).collect()
     }
 
-    fn times_block<const L: usize>(&self, x: MatRef<'_, f64>, mut y: MatMut<'_, f64>, scratch: &mut Scratch) {
+    fn times_block<const L: usize>(
+        &self,
+        values: &[f64],
+        x: MatRef<'_, f64>,
+        mut y: MatMut<'_, f64>,
+        scratch: &mut Scratch,
+    ) {
         let [lanes, product] = scratch;
         lanes.resize(self.order() * L, 0.0);
         product.clear();
@@ -187,7 +210,7 @@ impl SymmetricMatrix {
                 }
             }
         }
-        multiply(&self.offsets, &self.rows, &self.values, lanes, product);
+        multiply(&self.offsets, &self.rows, values, lanes, product);
         for (tile, rows) in product.chunks(TILE).enumerate() {
             for lane in 0..x.ncols() {
                 let column = y.rb_mut().col_mut(lane).subrows_mut(TILE * tile, rows.len());

@@ -222,7 +222,7 @@ impl<W: Watch> Tied<'_, W> {
 
     /// The lowest modes of a model of continuum elements.
     fn modes_of(&self, model: &HousingModel) -> Result<FullModes, ComputeError> {
-        let matrices = CoupledMatrices::of_housing(SystemMatrices::assemble(model)?, model);
+        let matrices = CoupledMatrices::of_housing(SystemMatrices::assemble_and_order(model)?, model);
         let mut modes = FullModes::of(matrices, ModeRange::AtMost(self.sought()), None, self.watch)?;
         modes.sharpen(&|motions, all| strain_products(model, &motions.housing(model, all)))?;
         Ok(modes)

@@ -128,8 +128,10 @@ impl EigenProblem {
             return Ok((0.0, light.unwrap_or_else(|| Arc::clone(factor))));
         }
         let attempt = |sigma: f64| -> Result<(f64, Arc<Factor>), LinalgError> {
-            let shifted = self.stiffness.shifted(sigma, &self.mass);
-            let factor = self.definite(&shifted, sigma != 0.0)?;
+            let factor = match sigma {
+                0.0 => self.definite(&self.stiffness, false)?,
+                _ => self.definite(&self.stiffness.shifted(sigma, &self.mass), true)?,
+            };
             Ok((sigma, Arc::new(factor)))
         };
         let mut tried = attempt(0.0);

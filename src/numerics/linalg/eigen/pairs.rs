@@ -33,7 +33,7 @@ impl CountCheck {
 /// Where the time of an eigenvalue computation went, s. With several threads the count goes on beside the iteration.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, JsonSchema)]
 pub struct EigenTimes {
-    /// Ordering, permutation, symbolic analysis.
+    /// Ordering where it is not found beside the assembly, permutation, symbolic analysis.
     pub order: f64,
     /// Numerical factorisation for the iteration.
     pub factor: f64,

@@ -46,9 +46,27 @@ impl EigenProblem {
     pub fn restricted(k: &SparseMatrix, m: &SparseMatrix, kept: &[usize]) -> Result<Self, LinalgError> {
         let started = Instant::now();
         let ordering = Ordering::of_problem(k, m, kept)?;
+        Self::ordered([k, m], ordering, started)
+    }
+
+    /// The same over the rows and columns of an order.
+    ///
+    /// # Errors
+    /// As [`EigenProblem::new`].
+    pub(crate) fn in_order(matrices: [&SparseMatrix; 2], ordering: Ordering) -> Result<Self, LinalgError> {
+        let started = Instant::now();
+        let [k, m] = matrices;
+        Self::ordered(matrices, ordering.of_determined(k, m)?, started)
+    }
+
+    fn ordered([k, m]: [&SparseMatrix; 2], ordering: Ordering, started: Instant) -> Result<Self, LinalgError> {
         let stiffness = SymmetricMatrix::permuted(k, &ordering);
         let mass = SymmetricMatrix::permuted(m, &ordering);
-        let symbolic = Arc::new(Plan::of(&stiffness.shifted(1.0, &mass))?);
+        let symbolic = Arc::new(if stiffness.covers(&mass) {
+            Plan::of(&stiffness)?
+        } else {
+            Plan::of(&stiffness.shifted(1.0, &mass))?
+        });
         Ok(Self {
             ordering: Arc::new(ordering),
             stiffness,
