@@ -84,7 +84,7 @@ bench-peers: setup
 bench-all: bench
 	cargo build --release
 	python3 benches/housings.py
-	python3 benches/housings.py --sizes 10,74,181,244,482,1156 --programs plummer --repeats 1
+	python3 benches/housings.py --sizes 10,76,182,244,482,1156 --programs plummer --repeats 1
 	python3 benches/condensation.py
 	python3 benches/ensembles.py
 	python3 benches/peers.py
