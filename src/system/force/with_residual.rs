@@ -2,6 +2,7 @@
 
 use super::super::balls::BallGroup;
 use super::super::coupled::CoupledSystem;
+use super::super::race::SAME_TOUCH;
 use crate::numerics::lanes::{LANES, Lanes, each, first_mut, positive};
 
 /// Sweeps over all balls at once: three to five where the residual is a few percent of the contacts' own flexibility.
@@ -16,10 +17,6 @@ pub(super) const MAX_SWEEPS: usize = 1000;
 /// Relative change of a contact force at which the sweeps end: the forces are then right to about a percent of it, 1e-8, far
 /// below any integration error.
 pub(super) const SWEEP_TOLERANCE: f64 = 1e-6;
-
-/// Relative change of a displacement and its rate over which the force on waves or damage is continued by its tangent; the error
-/// is that times what the tangent leaves out, the profile's turning of the normals.
-const SAME_PLACE: f64 = 1e-6;
 
 impl CoupledSystem {
     /// Outer forces that deform the race through the residual flexibility `G`, `F_j = f(gap_j - sum G_jk F_k)`: all balls at
@@ -68,12 +65,11 @@ impl CoupledSystem {
         }
         for place in 0..self.work.uneven.len() {
             let j = self.work.uneven[place];
-            let (at, at_rate, force) = self.work.known[j];
             let (group, lane) = (&mut self.balls.groups[j / LANES], j % LANES);
             let s = group.gap[lane] - group.displaced[lane];
+            let force = self.outer.force_by(&self.work.touch[j], s, group.rate[lane]);
             group.outer_magnitude[lane] = force.magnitude;
-            group.outer_tangential[lane] =
-                force.tangential + force.tangent[1] * (s - at) + force.by_rate[1] * (group.rate[lane] - at_rate);
+            group.outer_tangential[lane] = force.tangential;
         }
     }
 
@@ -87,7 +83,7 @@ impl CoupledSystem {
             self.balls.set(j, |ball| &mut ball.outer_radial, 0.0);
             self.balls.set(j, |ball| &mut ball.law[1], 0.0);
             self.balls.set(j, |ball| &mut ball.growth, 0.0);
-            self.work.known[j].0 = f64::NAN;
+            self.work.touch[j].penetration = f64::NAN;
         }
         for _ in 0..MAX_SWEEPS {
             let (mut change, mut largest) = (0.0_f64, 0.0_f64);
@@ -156,7 +152,7 @@ impl CoupledSystem {
         self.laws::<B>();
         for place in 0..self.work.uneven.len() {
             let j = self.work.uneven[place];
-            self.work.known[j].0 = f64::NAN;
+            self.work.touch[j].penetration = f64::NAN;
             self.uneven_law(j);
         }
         for group in first_mut::<B, _>(&mut self.balls.groups) {
@@ -214,17 +210,17 @@ impl CoupledSystem {
         let (group, lane) = (j / LANES, j % LANES);
         let s = self.balls.groups[group].gap[lane] - self.balls.groups[group].displaced[lane];
         let rate = self.balls.groups[group].rate[lane];
-        let (known, known_rate, _) = self.work.known[j];
-        let near = (s - known).abs() <= SAME_PLACE * s.abs() && (rate - known_rate).abs() <= SAME_PLACE * rate.abs();
-        // also where none is known
-        if !near {
-            self.work.known[j] = (s, rate, self.outer_force(j, s));
+        let same = SAME_TOUCH * self.setup.geometry.ball_radius();
+        let moved = (s - self.work.touch[j].penetration).abs();
+        // also where nothing was found yet
+        if moved > same || moved.is_nan() {
+            let (damage, place) = self.outer_place(j, s);
+            self.outer.touch_into(damage, &place, &mut self.work.touch[j]);
         }
-        let (at, at_rate, force) = &self.work.known[j];
-        let [law, tangent] = &mut self.balls.groups[group].law;
-        law[lane] = force.radial + force.tangent[0] * (s - at) + force.by_rate[0] * (rate - at_rate);
-        tangent[lane] = force.tangent[0];
-        self.balls.groups[group].growth[lane] = force.growth;
+        let force = self.outer.force_by(&self.work.touch[j], s, rate);
+        let group = &mut self.balls.groups[group];
+        (group.law[0][lane], group.law[1][lane]) = (force.radial, force.tangent[0]);
+        group.growth[lane] = force.growth;
     }
 
     /// Takes the residual's motion under the moving balls out of their rates: `dG/dtheta F` times the cage speed, with the
