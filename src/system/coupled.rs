@@ -247,8 +247,8 @@ impl Simulated for CoupledSystem {
 
     fn sensor_displacement(&self, sensor: usize, y: &[f64]) -> f64 {
         let modal = scalar_product(&self.sensors[sensor].1, &y[..self.modes]);
-        let forces = self.balls.all(|ball| &ball.outer_radial);
-        let residual = self.residual.as_ref().map_or(0.0, |residual| residual.at_sensor(sensor, forces));
+        let balls = &self.balls.groups;
+        let residual = self.residual.as_ref().map_or(0.0, |residual| residual.at_sensor(sensor, balls));
         modal + residual
     }
 
