@@ -84,6 +84,12 @@ pub(crate) fn each(f: impl Fn(usize) -> f64) -> Lanes {
     [f(0), f(1), f(2), f(3)]
 }
 
+/// `a b + c`, rounded once: the same on every machine, and one instruction where the caller is compiled for machines that have it.
+#[inline(always)]
+pub(crate) fn fused(a: f64, b: f64, c: f64) -> f64 {
+    a.mul_add(b, c)
+}
+
 /// x, or 0 where it is negative; NaN stays.
 #[inline(always)]
 pub(crate) fn positive(x: f64) -> f64 {

@@ -44,13 +44,16 @@ pub(super) struct BallGroup {
     pub own: Lanes,
     pub damping: Lanes,
     pub law: [Lanes; 2],
+    /// What of a change of its law a ball's force takes, as the race gives way to it alone.
+    pub yields: Lanes,
     /// With it and contact damping: velocity towards the race of the kept modes, and of the race by the changing forces, m/s; rate of
     /// the force by the motion along waves or damage, N/s.
     pub approach: Lanes,
     pub yielding: Lanes,
     pub growth: Lanes,
-    /// Velocity towards the outer race, m/s.
+    /// Velocity towards the outer race, m/s, and of the race by kept modes and turning where the contacts are damped.
     pub rate: Lanes,
+    pub race_rate: Lanes,
     /// Displacement of the outer race along increasing angle under a ball on waves or damage, m, and its rate as the ball moves
     /// along, m/s; of other balls stale.
     pub shift: Lanes,

@@ -3,7 +3,7 @@
 use super::balls::Balls;
 use super::inner::InnerRace;
 use super::powers::Powers;
-use super::race::{Damage, RaceContact, RaceForce};
+use super::race::{Damage, RaceContact, Touch};
 use super::raceway::RacewayTable;
 use super::record::{RecordLayout, RunRecord};
 use super::residual::{Coupling, ResidualFlexibility};
@@ -93,10 +93,11 @@ pub(super) struct Work {
     /// What each ball may feel at the outer race, and which of them feel anything.
     pub damage: Vec<Damage>,
     pub damaged: Vec<usize>,
-    /// Balls on waves or damage of the outer race; with a static residual the displacement and rate of each one's last evaluation
-    /// and its force.
+    /// Balls on waves or damage of the outer race; with a static residual what each of them touches.
     pub uneven: Vec<usize>,
-    pub known: Vec<(f64, f64, RaceForce)>,
+    pub touch: Vec<Touch>,
+    /// Displacement of the race under each ball without inertia, m.
+    pub under: Vec<f64>,
     /// Of all balls, N.
     pub on_shaft: [f64; 2],
     /// Force that is evaluated for its tangent alone.
@@ -246,8 +247,8 @@ impl Simulated for CoupledSystem {
 
     fn sensor_displacement(&self, sensor: usize, y: &[f64]) -> f64 {
         let modal = scalar_product(&self.sensors[sensor].1, &y[..self.modes]);
-        let forces = self.balls.all(|ball| &ball.outer_radial);
-        let residual = self.residual.as_ref().map_or(0.0, |residual| residual.at_sensor(sensor, forces));
+        let balls = &self.balls.groups;
+        let residual = self.residual.as_ref().map_or(0.0, |residual| residual.at_sensor(sensor, balls));
         modal + residual
     }
 
@@ -287,7 +288,8 @@ impl Work {
             damage: vec![Damage::None; balls],
             damaged: Vec::with_capacity(balls),
             uneven: Vec::with_capacity(balls),
-            known: vec![(0.0, 0.0, RaceForce::default()); balls],
+            touch: vec![Touch::default(); balls],
+            under: vec![0.0; balls],
             ..Self::default()
         }
     }

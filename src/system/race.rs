@@ -5,7 +5,7 @@
 //! What the contacts of one ball with a race store, and what their damping takes.
 
 use super::bearing_setup::BearingSetup;
-use crate::bearing::defect::{BallFlat, DefectContacts, PolarPosition, RaceDefect};
+use crate::bearing::defect::{BallFlat, DefectContact, DefectContacts, Feature, PolarPosition, RaceDefect};
 use crate::bearing::{HertzContact, Race, Waviness};
 use crate::numerics::lanes::{Lanes, each};
 use std::f64::consts::PI;
@@ -47,6 +47,35 @@ pub(in crate::system) struct RacePlace {
     pub turning: f64,
 }
 
+/// What a ball touches at a place.
+#[derive(Debug, Clone)]
+pub(in crate::system) struct Touch {
+    /// How far it was pressed there, m; not a number where nothing was found yet.
+    pub penetration: f64,
+    contacts: DefectContacts,
+    /// How fast its centre moves along what carries them, m/s.
+    along: f64,
+    /// What waves take of the rate of the penetration, m/s.
+    climbing: f64,
+    lean: Option<Lean>,
+}
+
+/// How waves lean there.
+#[derive(Debug, Clone, Copy)]
+struct Lean {
+    /// Their slope along the race, and its derivative along it, 1/m.
+    lean: f64,
+    bend: f64,
+    /// How fast the ball's centre moves along the race, m/s.
+    sliding: f64,
+}
+
+impl Default for Touch {
+    fn default() -> Self {
+        Self { penetration: f64::NAN, contacts: DefectContacts::none(), along: 0.0, climbing: 0.0, lean: None }
+    }
+}
+
 /// What damage a ball feels in one place.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub(in crate::system) enum Damage {
@@ -85,11 +114,17 @@ pub(in crate::system) struct RaceContact {
     /// How far it rises towards the balls at most, m: a ball farther than this from touching the undamaged race touches
     /// nothing.
     pub rise: f64,
+    /// The same of defects alone, m, and what a ball moves by while what it touches stays.
+    clear: f64,
     /// Whether a ball may meet anything but a plain circle.
     pub irregular: bool,
     defects: Vec<DefectArc>,
     flats: Vec<BallFlat>,
 }
+
+/// By what part of its radius a ball moves at most while what it touches stays the same: normals turn by so much, and stiffnesses at
+/// the ends of rims change by twenty times that.
+pub(in crate::system) const SAME_TOUCH: f64 = 1e-7;
 
 /// A defect with the arc in which a ball may feel it.
 #[derive(Debug, Clone)]
@@ -132,13 +167,15 @@ impl RaceContact {
                 defect: defect.clone(),
             }
         };
+        let rise = own().fold(0.0, |most, defect| defect.rise().max(most));
         Self {
             race,
             sign,
             plain: HertzContact { stiffness: setup.stiffness.at(race), damping: setup.contact_damping },
             touching_radius,
             irregular: !waviness.is_empty() || own().next().is_some() || !setup.flats.is_empty(),
-            rise: waviness.most() + own().fold(0.0, |most, defect| defect.rise().max(most)),
+            rise: waviness.most() + rise,
+            clear: rise + SAME_TOUCH * geometry.ball_radius(),
             waviness,
             defects: own().map(arc).collect(),
             flats: setup.flats.iter().map(|flat| flat.shape.clone()).collect(),
@@ -204,23 +241,52 @@ impl RaceContact {
     }
 
     /// Force of a ball at a place: on damage all contacts, each along its own normal; on waves along theirs.
+    #[inline]
+    pub(crate) fn force(&self, damage: Damage, at: &RacePlace) -> RaceForce {
+        if damage == Damage::None && self.waviness.is_empty() {
+            return self.plain_force(at.penetration, at.rate);
+        }
+        let mut touch = Touch::default();
+        self.touch_into(damage, at, &mut touch);
+        self.force_by(&touch, at.penetration, at.rate)
+    }
+
+    /// What a ball touches at a place, in the place of what was found before.
+    #[inline]
+    pub(crate) fn touch_into(&self, damage: Damage, at: &RacePlace, touch: &mut Touch) {
+        let level = self.on_waves(at);
+        (touch.penetration, touch.climbing) = (at.penetration, at.rate - level.rate);
+        touch.along = self.contacts_into(damage, &level, &mut touch.contacts);
+        touch.lean = None;
+        if !self.waviness.is_empty() {
+            let radius = self.radius(at.penetration);
+            let [_, slope, bend] = self.waviness.at(at.angle);
+            touch.lean = Some(Lean {
+                lean: slope / radius,
+                bend: bend / (radius * radius),
+                sliding: at.along - radius * at.turning,
+            });
+        }
+    }
+
+    /// Force of a ball by what it touches, at a penetration (m) next to that and any rate of it (m/s): contacts move along their
+    /// normals, which stay.
     ///
     /// The waves h(φ) shift everything: the potential is that of the race without them at the penetration less σ h, σ = 1 on the
     /// outer and -1 on the inner race, and its slope along the race is `-h' / ρ` times the radial force.
     #[inline]
-    pub(crate) fn force(&self, damage: Damage, at: &RacePlace) -> RaceForce {
-        if self.waviness.is_empty() {
-            return self.force_on_circle(damage, at);
-        }
-        let radius = self.radius(at.penetration);
-        let [_, slope, bend] = self.waviness.at(at.angle).map(|part| self.sign * part);
-        let mut force = self.force_on_circle(damage, &self.on_waves(at));
-        let (lean, normal) = (self.sign * slope / radius, force.radial);
+    pub(crate) fn force_by(&self, touch: &Touch, penetration: f64, rate: f64) -> RaceForce {
+        let moved = self.sign * (penetration - touch.penetration);
+        let mut force = self.sum(touch, moved, rate - touch.climbing);
+        let Some(Lean { lean, bend, sliding }) = touch.lean else {
+            return force;
+        };
+        let normal = force.radial;
         force.tangential -= lean * normal;
-        force.growth -= lean * force.tangent[0] * (at.along - radius * at.turning);
+        force.growth -= lean * force.tangent[0] * sliding;
         let leaning = |[rr, rt, tt]: [f64; 3]| [rr, rt - lean * rr, tt - 2.0 * lean * rt + lean * lean * rr];
         force.tangent = leaning(force.tangent);
-        force.tangent[2] -= self.sign * bend / (radius * radius) * normal;
+        force.tangent[2] -= bend * normal;
         force.by_rate = leaning(force.by_rate);
         force
     }
@@ -242,53 +308,54 @@ impl RaceContact {
         }
     }
 
-    /// The same without waves.
+    /// Finds the contacts on a race without waves; gives how fast (m/s) the ball's centre moves along what carries them.
     #[inline]
-    fn force_on_circle(&self, damage: Damage, at: &RacePlace) -> RaceForce {
-        match self.contacts(damage, at) {
-            None => self.plain_force(at.penetration, at.rate),
-            Some((contacts, along)) => self.sum(&contacts, at.rate, along),
-        }
-    }
-
-    /// Contacts on damage, and how fast (m/s) the ball's centre moves along what carries it.
-    #[inline]
-    pub(super) fn contacts(&self, damage: Damage, at: &RacePlace) -> Option<(DefectContacts, f64)> {
+    pub(super) fn contacts_into(&self, damage: Damage, at: &RacePlace, contacts: &mut DefectContacts) -> f64 {
         let radius = self.radius(at.penetration);
-        let mut contacts = DefectContacts::none();
+        contacts.clear();
         match damage {
-            Damage::None => return None,
+            Damage::None => contacts.push(DefectContact {
+                feature: Feature::Plain,
+                delta: at.penetration,
+                normal_radial: self.sign,
+                normal_tangential: 0.0,
+                stiffness: self.plain.stiffness,
+            }),
+            // of a ball that is clear of all that rises, none presses
+            Damage::Race(_) | Damage::Flat(_) if at.penetration <= -self.clear => {}
             Damage::Race(defect) => {
                 let place = PolarPosition { radius, angle: at.angle };
-                let defect = &self.defects[defect].defect;
-                defect.contacts_into(place, &mut contacts);
+                self.defects[defect].defect.contacts_into(place, contacts);
             }
-            Damage::Flat(flat) => {
-                let flat = &self.flats[flat];
-                flat.contacts_into(self.race, at.spin[0], radius, &mut contacts);
-            }
+            Damage::Flat(flat) => self.flats[flat].contacts_into(self.race, at.spin[0], radius, contacts),
         }
-        Some((contacts, at.along - radius * at.carrier(damage)))
+        at.along - radius * at.carrier(damage)
     }
 
     /// Overlaps of all contacts that press at a place, m, and the rates of these by which damping goes, m/s.
     #[cfg(test)]
     pub(crate) fn overlaps(&self, damage: Damage, at: &RacePlace) -> Vec<[f64; 2]> {
-        let at = self.on_waves(at);
-        let Some((contacts, along)) = self.contacts(damage, &at) else {
-            return vec![[at.penetration, at.rate]];
-        };
-        let radial = self.sign * at.rate;
-        let pressing = contacts.pressing();
-        pressing.map(|contact| [contact.delta, contact.rate(radial, along)]).collect()
+        let mut touch = Touch::default();
+        self.touch_into(damage, at, &mut touch);
+        let radial = self.sign * (at.rate - touch.climbing);
+        let pressing = touch.contacts.pressing();
+        pressing.map(|contact| [contact.delta, contact.rate(radial, touch.along)]).collect()
     }
 
-    fn sum(&self, contacts: &DefectContacts, rate: f64, along: f64) -> RaceForce {
+    /// Sum of the contacts' forces, the ball `moved` (m) outwards from where they were found.
+    #[inline]
+    fn sum(&self, touch: &Touch, moved: f64, rate: f64) -> RaceForce {
         let mut sum = RaceForce::default();
-        for contact in contacts.pressing() {
+        let (radial, along) = (self.sign * rate, touch.along);
+        for contact in touch.contacts.as_slice() {
             let [n_r, n_t] = [contact.normal_radial, contact.normal_tangential];
+            let delta = contact.delta + n_r * moved;
+            // what is not a number shows itself
+            if delta <= 0.0 {
+                continue;
+            }
             let law = HertzContact { stiffness: contact.stiffness, damping: self.plain.damping };
-            let force = law.linearised(contact.delta, contact.rate(self.sign * rate, along));
+            let force = law.linearised(delta, contact.rate(radial, along));
             sum.radial += force.force * n_r;
             sum.tangential += force.force * n_t;
             sum.magnitude += force.force;
@@ -328,17 +395,8 @@ impl RaceContact {
         let (rate, against) = (at.rate, at.along - self.radius(at.penetration) * at.turning);
         let at = self.on_waves(at);
         let moving = moving + (at.rate - rate);
-        let Some((contacts, along)) = self.contacts(damage, &at) else {
-            let law = self.plain;
-            let damping = law.force(at.penetration, at.rate) - law.force(at.penetration, 0.0);
-            return RaceEnergy {
-                elastic: law.energy(at.penetration),
-                pressed: law.force(at.penetration, 0.0) * moving,
-                dissipated: damping * moving,
-                damping: self.sign * damping,
-                carried: 0.0,
-            };
-        };
+        let mut contacts = DefectContacts::none();
+        let along = self.contacts_into(damage, &at, &mut contacts);
         let mut sum = RaceEnergy::default();
         for contact in contacts.pressing() {
             let law = HertzContact { stiffness: contact.stiffness, damping: self.plain.damping };

@@ -12,7 +12,7 @@
 
 use super::structure::StructureModes;
 use crate::fe::model::{Ring, RingRows, RingSeat};
-use crate::numerics::lanes::{LANES, Lanes, each, together, total};
+use crate::numerics::lanes::{LANES, Lanes, each, fused, together, total};
 use std::f64::consts::{PI, TAU};
 
 /// Values of the kept modes along the raceway.
@@ -107,9 +107,31 @@ impl RacewayTable {
         for ((quintic, amplitude), out) in self.row(at.piece).iter().zip(amplitudes).zip(out) {
             let value = value(quintic, at.xi);
             *out = value;
-            sums = each(|l| sums[l] + value[l] * amplitude[l]);
+            sums = each(|l| fused(value[l], amplitude[l], sums[l]));
         }
         total(&sums)
+    }
+
+    /// The same, and the rate of that sum at the modes' `velocities` \[groups\] for a place that moves by `speed` turns in a second.
+    #[inline(always)]
+    pub(crate) fn motion_into<'a>(
+        &self,
+        at: Place,
+        [amplitudes, velocities]: [&[Lanes]; 2],
+        speed: f64,
+        out: impl Iterator<Item = &'a mut Lanes>,
+    ) -> [f64; 2] {
+        let (mut sums, mut driven, mut climbed) = ([0.0; LANES], [0.0; LANES], [0.0; LANES]);
+        let modes = amplitudes.iter().zip(velocities);
+        for ((quintic, (amplitude, velocity)), out) in self.row(at.piece).iter().zip(modes).zip(out) {
+            let [value, slope] = value_and_slope(quintic, at.xi);
+            *out = value;
+            sums = each(|l| fused(value[l], amplitude[l], sums[l]));
+            driven = each(|l| fused(value[l], velocity[l], driven[l]));
+            climbed = each(|l| fused(slope[l], amplitude[l], climbed[l]));
+        }
+        let scale = 2.0 * self.pieces * speed;
+        [total(&sums), total(&each(|l| fused(scale, climbed[l], driven[l])))]
     }
 
     /// Derivatives of all modes at a place, per turn times `scale`, into `out` \[groups\].
@@ -145,7 +167,18 @@ impl RacewayTable {
 /// Values of quintics side by side at a place, -1 <= x <= 1.
 #[inline(always)]
 pub(in crate::system) fn value([a, b, c, d, e, f]: &Quintic, x: f64) -> Lanes {
-    each(|l| ((((a[l] * x + b[l]) * x + c[l]) * x + d[l]) * x + e[l]) * x + f[l])
+    each(|l| fused(fused(fused(fused(fused(a[l], x, b[l]), x, c[l]), x, d[l]), x, e[l]), x, f[l]))
+}
+
+/// These and their derivatives by the place.
+#[inline(always)]
+pub(in crate::system) fn value_and_slope([first, rest @ ..]: &Quintic, x: f64) -> [Lanes; 2] {
+    let (mut value, mut slope) = (*first, [0.0; LANES]);
+    for (power, next) in rest.iter().enumerate() {
+        slope = if power == 0 { value } else { each(|l| fused(slope[l], x, value[l])) };
+        value = each(|l| fused(value[l], x, next[l]));
+    }
+    [value, slope]
 }
 
 /// Their derivatives by the place.
@@ -238,22 +271,18 @@ impl ElementPolynomials {
         let count = degree + 1;
         let point = |k: usize| ((k as f64 + 0.5) * PI / count as f64).cos();
         let chebyshev = chebyshev_to_powers(degree);
+        // of a discrete cosine transform [order][point]
+        let cosine = |order: usize, k: usize| (order as f64 * (k as f64 + 0.5) * PI / count as f64).cos();
+        let cosines: Vec<Vec<f64>> = (0..count).map(|order| (0..count).map(|k| cosine(order, k)).collect()).collect();
         let blank = || vec![vec![[0.0; LANES]; count]; modes.div_ceil(LANES)];
         let mut powers: Vec<_> = (0..elements).map(|_| blank()).collect();
         for (element, groups) in powers.iter_mut().enumerate() {
             let samples: Vec<Vec<f64>> = (0..count).map(|k| sample(element, point(k))).collect();
             for mode in 0..modes {
-                for (order, polynomial) in chebyshev.iter().take(count).enumerate() {
-                    // discrete cosine transform of the samples
+                for (order, (polynomial, cosines)) in chebyshev.iter().zip(&cosines).enumerate() {
                     let scale = if order == 0 { 1.0 } else { 2.0 } / count as f64;
-                    let amplitude: f64 = samples
-                        .iter()
-                        .enumerate()
-                        .map(|(k, values)| {
-                            let angle = order as f64 * (k as f64 + 0.5) * PI / count as f64;
-                            scale * values[mode] * angle.cos()
-                        })
-                        .sum();
+                    let terms = samples.iter().zip(cosines);
+                    let amplitude: f64 = terms.map(|(values, cosine)| scale * values[mode] * cosine).sum();
                     for (power, factor) in polynomial.iter().enumerate() {
                         groups[mode / LANES][degree - power][mode % LANES] += amplitude * factor;
                     }

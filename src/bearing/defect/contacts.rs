@@ -79,13 +79,13 @@ impl DefectContacts {
 
     /// Takes all contacts out.
     #[inline]
-    pub(super) fn clear(&mut self) {
+    pub(crate) fn clear(&mut self) {
         self.count = 0;
     }
 
     /// Adds a contact behind the others; of more than [`MOST_CONTACTS`] the one with the least overlap goes.
     #[inline]
-    pub(super) fn push(&mut self, contact: DefectContact) {
+    pub(crate) fn push(&mut self, contact: DefectContact) {
         if let Some(place) = self.items.get_mut(self.count) {
             *place = contact;
             self.count += 1;

@@ -5,7 +5,7 @@
 use super::placing::CentreMotion;
 use crate::bearing::RotationState;
 use crate::numerics::lanes;
-use crate::numerics::lanes::{LANES, together};
+use crate::numerics::lanes::{LANES, Lanes, fused, together};
 use crate::numerics::ode::{Divergence, LinearCoordinate, SecondOrderSystem, Tangent, all_finite};
 use crate::system::{BallsInertia, CoupledSystem, Formulation};
 use multiversion::multiversion;
@@ -76,9 +76,9 @@ impl SecondOrderSystem for CoupledSystem {
     }
 }
 
-/// [`SecondOrderSystem::force_into`] with the vector registers that the machine has; no fused products, so that their width
-/// changes no result.
-#[multiversion(targets("x86_64+avx2", "aarch64+neon"), dispatcher = "direct")]
+/// [`SecondOrderSystem::force_into`] with the vector registers that the machine has; products are fused where it is written and nowhere
+/// else, so that neither their width nor the machine changes a result.
+#[multiversion(targets("x86_64+avx2+fma", "aarch64+neon"), dispatcher = "direct")]
 fn evaluate(system: &mut CoupledSystem, t: f64, y: &[f64], v: &[f64], g: &mut [f64]) {
     // five to twelve balls and up to twelve modes without loops over their groups
     match (system.balls.groups.len(), system.work.amplitudes.len()) {
@@ -140,7 +140,7 @@ impl CoupledSystem {
             let rows = lanes::first::<M, _>(&group.rows);
             for (force, [a, b, c, d]) in forces.iter_mut().zip(rows) {
                 *force = lanes::each(|l| {
-                    (force[l] + (radial[0] * a[l] + radial[1] * b[l])) + (radial[2] * c[l] + radial[3] * d[l])
+                    fused(radial[1], b[l], fused(radial[0], a[l], force[l])) + fused(radial[3], d[l], radial[2] * c[l])
                 });
             }
         }
@@ -218,7 +218,7 @@ impl CoupledSystem {
 /// their force, and the sum of what weight and balls do to them.
 ///
 /// [`own_springs_into`]: crate::numerics::ode::SecondOrderSystem::own_springs_into
-#[multiversion(targets("x86_64+avx2", "aarch64+neon"), dispatcher = "direct")]
+#[multiversion(targets("x86_64+avx2+fma", "aarch64+neon"), dispatcher = "direct")]
 pub(super) fn find_own_springs(system: &CoupledSystem, springs: &mut [f64], sizes: &mut [f64]) {
     let balls = (system.modes + 2).min(springs.len());
     springs[..balls].fill(0.0);
@@ -260,8 +260,8 @@ fn mode_sizes(system: &CoupledSystem, sizes: &mut [f64]) {
             if radial.iter().any(|&radial| radial != 0.0) {
                 let [a, b, c, d] = &group.rows[number];
                 sum = lanes::each(|l| {
-                    (sum[l] + (radial[0] * a[l]).abs() + (radial[1] * b[l]).abs())
-                        + ((radial[2] * c[l]).abs() + (radial[3] * d[l]).abs())
+                    let part = |k: usize, row: &Lanes, more: f64| fused(radial[k].abs(), row[l].abs(), more);
+                    part(1, b, part(0, a, sum[l])) + part(3, d, part(2, c, 0.0))
                 });
             }
         }

@@ -1,7 +1,7 @@
 //! Contacts of the balls with the outer race that the kept modes and the weight move.
 
 use super::super::bearing_setup::{BallsInertia, Formulation};
-use super::super::coupled::{CoupledSystem, Work};
+use super::super::coupled::CoupledSystem;
 use super::super::race::{Damage, RaceForce, RacePlace};
 use super::super::raceway::{Place, RacewayTable};
 use crate::numerics::lanes::{self, LANES, Lanes, positive};
@@ -14,7 +14,7 @@ impl CoupledSystem {
     pub(super) fn approach_outer_race<const B: usize, const M: usize>(&mut self) {
         self.find_gaps::<B, M>();
         if self.setup.contact_damping > 0.0 {
-            self.rates_towards_outer_race::<B, M>();
+            self.rates_towards_outer_race::<B>();
         }
         if self.outer.irregular {
             self.find_damage();
@@ -24,6 +24,7 @@ impl CoupledSystem {
 
     /// Finds the balls on waves or damage, and how far and how fast the race under them moves along increasing angle: with it they
     /// move along the profile.
+    #[inline(always)]
     fn find_shifts(&mut self) {
         let scale = self.work.cage_speed / TAU;
         self.work.uneven.clear();
@@ -60,19 +61,23 @@ impl CoupledSystem {
             BallsInertia::QuasiStatic => f64::INFINITY,
         };
         let amplitudes = lanes::first::<M, _>(&self.work.amplitudes);
+        let velocities = lanes::first::<M, _>(&self.work.velocities);
+        let moving = (self.setup.contact_damping > 0.0).then_some((velocities, self.work.cage_speed / TAU));
         let (radial, stiffness) = (&self.radial, self.outer.plain.stiffness);
         for group in lanes::first_mut::<B, _>(&mut self.balls.groups) {
             let places = radial.locate(&group.turn);
             let (s, oversize) = (&group.displacement, &group.oversize);
             let s = lanes::each(|l| s[l] + oversize[l]);
-            let mut gap = Gaps { limit, radial, amplitudes, rows: lanes::first_mut::<M, _>(&mut group.rows) };
-            let gap = [
-                gap.of::<0>(s[0], places.get(0)),
-                gap.of::<1>(s[1], places.get(1)),
-                gap.of::<2>(s[2], places.get(2)),
-                gap.of::<3>(s[3], places.get(3)),
+            let mut gaps = Gaps { limit, radial, amplitudes, moving, rows: lanes::first_mut::<M, _>(&mut group.rows) };
+            let found = [
+                gaps.of::<0>(s[0], places.get(0)),
+                gaps.of::<1>(s[1], places.get(1)),
+                gaps.of::<2>(s[2], places.get(2)),
+                gaps.of::<3>(s[3], places.get(3)),
             ];
+            let gap = found.map(|[gap, _]| gap);
             group.gap = gap;
+            group.race_rate = found.map(|[_, rate]| rate);
             // here, where the gaps need not be collected from memory
             group.outer_radial = lanes::each(|l| {
                 let overlap = positive(gap[l]);
@@ -130,26 +135,11 @@ impl CoupledSystem {
     /// with the part that comes from the ball moving along the deformed race. The static residual's part is added where it
     /// is known.
     #[inline(always)]
-    fn rates_towards_outer_race<const B: usize, const M: usize>(&mut self) {
-        let scale = self.work.cage_speed / TAU;
-        let Work { amplitudes, velocities, scratch_row, .. } = &mut self.work;
-        let amplitudes = lanes::first::<M, _>(amplitudes);
-        let velocities = lanes::first::<M, _>(velocities);
-        let scratch_row = lanes::first_mut::<M, _>(scratch_row);
+    fn rates_towards_outer_race<const B: usize>(&mut self) {
         for group in lanes::first_mut::<B, _>(&mut self.balls.groups) {
-            let places = self.radial.locate(&group.turn);
-            for l in 0..LANES {
-                group.rate[l] = 0.0;
-                // the opposite would leave out what is not a number
-                if group.gap[l] <= -self.reach {
-                    continue;
-                }
-                self.radial.slopes_into(places.get(l), scale, scratch_row);
-                let rows = lanes::first::<M, _>(&group.rows).iter();
-                let rows = rows.map(|rows| &rows[l]);
-                let race = lanes::dot(rows, velocities) + lanes::dot(scratch_row.iter(), amplitudes);
-                group.rate[l] = group.displacement_rate[l] - race;
-            }
+            let (gap, ball, race) = (&group.gap, &group.displacement_rate, &group.race_rate);
+            // the opposite would leave out what is not a number
+            group.rate = lanes::each(|l| if gap[l] <= -self.reach { 0.0 } else { ball[l] - race[l] });
         }
     }
 
@@ -235,19 +225,25 @@ struct Gaps<'a> {
     limit: f64,
     radial: &'a RacewayTable,
     amplitudes: &'a [Lanes],
+    /// The modes' velocities and the speed of the balls, turns a second, where the race's rates are asked for.
+    moving: Option<(&'a [Lanes], f64)>,
     rows: &'a mut [[Lanes; LANES]],
 }
 
 impl Gaps<'_> {
     /// Displacement of the ball in lane `L` relative to the race, at `s` (m) from its undeformed place, minus infinity if it
-    /// cannot be reached; keeps the race's row there.
+    /// cannot be reached, and the race's rate there or zero; keeps the race's row there.
     #[inline(always)]
-    fn of<const L: usize>(&mut self, s: f64, at: Place) -> f64 {
+    fn of<const L: usize>(&mut self, s: f64, at: Place) -> [f64; 2] {
         // what is not a number goes on and shows itself
         if s <= -self.limit {
-            return f64::NEG_INFINITY;
+            return [f64::NEG_INFINITY, 0.0];
         }
         let rows = self.rows.iter_mut().map(|rows| &mut rows[L]);
-        s - self.radial.values_into(at, self.amplitudes, rows)
+        let Some((velocities, speed)) = self.moving else {
+            return [s - self.radial.values_into(at, self.amplitudes, rows), 0.0];
+        };
+        let [race, rate] = self.radial.motion_into(at, [self.amplitudes, velocities], speed, rows);
+        [s - race, rate]
     }
 }

@@ -73,7 +73,7 @@ impl CoupledSystem {
         // displacements of the race, before they are overwritten by overlaps
         let sweeps = if self.residual.is_some() { MAX_SWEEPS } else { 1 };
         for j in 0..self.balls.count {
-            self.work.known[j].0 = -self.balls.get(j, |ball| &ball.gap);
+            self.work.under[j] = -self.balls.get(j, |ball| &ball.gap);
         }
         for _ in 0..sweeps {
             let (mut change, mut largest): (f64, f64) = (0.0, 0.0);
@@ -83,7 +83,7 @@ impl CoupledSystem {
                 let seat = Seat {
                     shaft,
                     centre,
-                    place: self.work.known[j].0 + others,
+                    place: self.work.under[j] + others,
                     own,
                     weight: mass * (gravity[0] * x + gravity[1] * y),
                     spin: mass * cage.speed * cage.speed,

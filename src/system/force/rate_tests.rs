@@ -2,7 +2,7 @@
 
 use super::super::bearing_setup::{BallsInertia, BearingSetup, Formulation};
 use super::super::coupled::{CoupledSystem, ModeSelection};
-use super::super::race::Damage;
+use super::super::race::{Damage, RacePlace, SAME_TOUCH, Touch};
 use super::tangent_tests::{Asked, damped, dented, flat, measured, preloaded, wavy};
 use crate::bearing::Race;
 use crate::bearing::defect::{CurvatureReading, DentShape, RaceDefect, SurfaceDent};
@@ -130,6 +130,32 @@ fn with_a_residual_rates_are_those_of_the_overlaps() {
         }
     }
     assert!(all_below);
+}
+
+/// Without the way between the two the difference is all of what the force changes by.
+#[test]
+fn what_a_ball_touches_gives_the_force_next_to_where_it_was_found() {
+    let (mut pressed, mut all_below) = (0, true);
+    for (kind, setup) in kinds() {
+        let (mut system, state) = Asked::of(damped(setup)).moving();
+        pressing(&mut system, &state);
+        let (damage, place) = system.outer_place(0, system.balls.get(0, |ball| &ball.gap));
+        let race = &system.outer;
+        let mut touch = Touch::default();
+        race.touch_into(damage, &place, &mut touch);
+        let here = race.force(damage, &place);
+        for moved in [-1.0, 1.0].map(|way| way * SAME_TOUCH * system.setup.geometry.ball_radius()) {
+            let [penetration, rate] = [place.penetration + moved, 1.01 * place.rate];
+            let found = race.force_by(&touch, penetration, rate);
+            let expected = race.force(damage, &RacePlace { penetration, rate, ..place });
+            let [change, error] = [here.radial, found.radial].map(|force| (force - expected.radial).abs());
+            pressed += usize::from(change > 0.0);
+            println!("{kind}: {error:e} of {change:e} N");
+            all_below &= error <= 1e-2 * change && (found.tangential - expected.tangential).abs() <= 1e-2 * change;
+        }
+    }
+    // ball 0 carries load in all
+    assert!(all_below && pressed > 30, "{pressed}");
 }
 
 #[test]

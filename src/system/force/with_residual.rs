@@ -1,8 +1,8 @@
 //! Outer contacts on a race that also gives way by the static residual of the modes left out.
 
-use super::super::balls::BallGroup;
 use super::super::coupled::CoupledSystem;
-use crate::numerics::lanes::{LANES, Lanes, each, first_mut, positive};
+use super::super::race::SAME_TOUCH;
+use crate::numerics::lanes::{LANES, Lanes, each, first_mut, fused, positive};
 
 /// Sweeps over all balls at once: three to five where the residual is a few percent of the contacts' own flexibility.
 const SWEEPS: usize = 12;
@@ -16,10 +16,6 @@ pub(super) const MAX_SWEEPS: usize = 1000;
 /// Relative change of a contact force at which the sweeps end: the forces are then right to about a percent of it, 1e-8, far
 /// below any integration error.
 pub(super) const SWEEP_TOLERANCE: f64 = 1e-6;
-
-/// Relative change of a displacement and its rate over which the force on waves or damage is continued by its tangent; the error
-/// is that times what the tangent leaves out, the profile's turning of the normals.
-const SAME_PLACE: f64 = 1e-6;
 
 impl CoupledSystem {
     /// Outer forces that deform the race through the residual flexibility `G`, `F_j = f(gap_j - sum G_jk F_k)`: all balls at
@@ -36,10 +32,11 @@ impl CoupledSystem {
         self.start_sweeps::<B>();
         let mut done = false;
         for sweep in 0..SWEEPS {
-            self.displace_race::<B>();
             if damped && sweep < RATE_SWEEPS {
-                self.rates_on_moving_race::<B>();
+                self.displace_moving_race::<B>();
                 self.damping_factors::<B>();
+            } else {
+                self.displace_race::<B>();
             }
             self.laws::<B>();
             for place in 0..self.work.uneven.len() {
@@ -49,7 +46,9 @@ impl CoupledSystem {
             for group in first_mut::<B, _>(&mut self.balls.groups) {
                 let (own, [law, tangent]) = (&group.own, &group.law);
                 let before = group.outer_radial;
-                let after = each(|l| positive(before[l] + (law[l] - before[l]) / (1.0 + own[l] * tangent[l])));
+                let yields = each(|l| 1.0 / fused(own[l], tangent[l], 1.0));
+                let after = each(|l| positive(fused(law[l] - before[l], yields[l], before[l])));
+                group.yields = yields;
                 change = each(|l| f64::max(change[l], (after[l] - before[l]).abs()));
                 largest = each(|l| f64::max(largest[l], after[l]));
                 group.outer_radial = after;
@@ -68,12 +67,11 @@ impl CoupledSystem {
         }
         for place in 0..self.work.uneven.len() {
             let j = self.work.uneven[place];
-            let (at, at_rate, force) = self.work.known[j];
             let (group, lane) = (&mut self.balls.groups[j / LANES], j % LANES);
             let s = group.gap[lane] - group.displaced[lane];
+            let force = self.outer.force_by(&self.work.touch[j], s, group.rate[lane]);
             group.outer_magnitude[lane] = force.magnitude;
-            group.outer_tangential[lane] =
-                force.tangential + force.tangent[1] * (s - at) + force.by_rate[1] * (group.rate[lane] - at_rate);
+            group.outer_tangential[lane] = force.tangential;
         }
     }
 
@@ -87,7 +85,7 @@ impl CoupledSystem {
             self.balls.set(j, |ball| &mut ball.outer_radial, 0.0);
             self.balls.set(j, |ball| &mut ball.law[1], 0.0);
             self.balls.set(j, |ball| &mut ball.growth, 0.0);
-            self.work.known[j].0 = f64::NAN;
+            self.work.touch[j].penetration = f64::NAN;
         }
         for _ in 0..MAX_SWEEPS {
             let (mut change, mut largest) = (0.0_f64, 0.0_f64);
@@ -156,12 +154,13 @@ impl CoupledSystem {
         self.laws::<B>();
         for place in 0..self.work.uneven.len() {
             let j = self.work.uneven[place];
-            self.work.known[j].0 = f64::NAN;
+            self.work.touch[j].penetration = f64::NAN;
             self.uneven_law(j);
         }
         for group in first_mut::<B, _>(&mut self.balls.groups) {
             let (own, [law, tangent]) = (&group.own, &group.law);
-            group.outer_radial = each(|l| law[l] / (1.0 + own[l] * tangent[l]));
+            group.yields = each(|l| 1.0 / fused(own[l], tangent[l], 1.0));
+            group.outer_radial = each(|l| law[l] * group.yields[l]);
         }
         if self.setup.contact_damping > 0.0 {
             self.rates_by_turning::<B>();
@@ -184,16 +183,58 @@ impl CoupledSystem {
         let Some(coupling) = &self.residual else {
             return;
         };
-        for group in first_mut::<B, _>(&mut self.balls.groups) {
+        let groups = first_mut::<B, _>(&mut self.balls.groups);
+        for group in &mut *groups {
             group.displaced = [0.0; LANES];
         }
+        for number in 0..groups.len() {
+            let force = groups[number].outer_radial;
+            if is_zero(&force) {
+                continue;
+            }
+            let columns = coupling.columns::<B>(number);
+            for (place, group) in groups.iter_mut().enumerate() {
+                group.displaced = with_columns(&group.displaced, columns.map(|column| &column[place]), &force);
+            }
+        }
+    }
+
+    /// The same, and a Jacobi sweep of the rates `r_i = v_i - sum G_ij (f'_j r_j + g_j)` with the laws of the last sweep, g what grows
+    /// along waves or damage.
+    #[inline(always)]
+    fn displace_moving_race<const B: usize>(&mut self) {
+        let Some(coupling) = &self.residual else {
+            return;
+        };
         let groups = first_mut::<B, _>(&mut self.balls.groups);
-        add_columns(
-            groups,
-            |group| group.outer_radial,
-            |ball| coupling.column::<B>(ball),
-            |group| &mut group.displaced,
-        );
+        for group in &mut *groups {
+            group.displaced = [0.0; LANES];
+            group.yielding = [0.0; LANES];
+        }
+        for number in 0..groups.len() {
+            let group = &groups[number];
+            let force = group.outer_radial;
+            let (rate, tangent, growth) = (&group.rate, &group.law[1], &group.growth);
+            let growing = each(|l| fused(tangent[l], rate[l], growth[l]));
+            // not one without the other: a force may have gone in this sweep
+            if is_zero(&force) && is_zero(&growing) {
+                continue;
+            }
+            let columns = coupling.columns::<B>(number);
+            for (place, group) in groups.iter_mut().enumerate() {
+                let columns = columns.map(|column| &column[place]);
+                group.displaced = with_columns(&group.displaced, columns, &force);
+                group.yielding = with_columns(&group.yielding, columns, &growing);
+            }
+        }
+        for group in groups {
+            let (before, own, tangent) = (&group.rate, &group.own, &group.law[1]);
+            let (approach, yielding, yields) = (&group.approach, &group.yielding, &group.yields);
+            group.rate = each(|l| {
+                let share = own[l] * tangent[l];
+                fused(share, before[l], approach[l] - yielding[l]) * yields[l]
+            });
+        }
     }
 
     /// Forces at the displacements relative to the displaced race, and their derivatives by them.
@@ -214,17 +255,17 @@ impl CoupledSystem {
         let (group, lane) = (j / LANES, j % LANES);
         let s = self.balls.groups[group].gap[lane] - self.balls.groups[group].displaced[lane];
         let rate = self.balls.groups[group].rate[lane];
-        let (known, known_rate, _) = self.work.known[j];
-        let near = (s - known).abs() <= SAME_PLACE * s.abs() && (rate - known_rate).abs() <= SAME_PLACE * rate.abs();
-        // also where none is known
-        if !near {
-            self.work.known[j] = (s, rate, self.outer_force(j, s));
+        let same = SAME_TOUCH * self.setup.geometry.ball_radius();
+        let moved = (s - self.work.touch[j].penetration).abs();
+        // also where nothing was found yet
+        if moved > same || moved.is_nan() {
+            let (damage, place) = self.outer_place(j, s);
+            self.outer.touch_into(damage, &place, &mut self.work.touch[j]);
         }
-        let (at, at_rate, force) = &self.work.known[j];
-        let [law, tangent] = &mut self.balls.groups[group].law;
-        law[lane] = force.radial + force.tangent[0] * (s - at) + force.by_rate[0] * (rate - at_rate);
-        tangent[lane] = force.tangent[0];
-        self.balls.groups[group].growth[lane] = force.growth;
+        let force = self.outer.force_by(&self.work.touch[j], s, rate);
+        let group = &mut self.balls.groups[group];
+        (group.law[0][lane], group.law[1][lane]) = (force.radial, force.tangent[0]);
+        group.growth[lane] = force.growth;
     }
 
     /// Takes the residual's motion under the moving balls out of their rates: `dG/dtheta F` times the cage speed, with the
@@ -239,37 +280,20 @@ impl CoupledSystem {
         for group in &mut *groups {
             group.approach = group.rate;
         }
-        let turning = |group: &BallGroup| each(|l| -(speed * group.outer_radial[l]));
-        add_columns(groups, turning, |ball| coupling.slope_column::<B>(ball), |group| &mut group.approach);
-        for group in groups {
-            let (approach, own, tangent) = (&group.approach, &group.own, &group.law[1]);
-            let growth = &group.growth;
-            group.rate = each(|l| (approach[l] - own[l] * growth[l]) / (1.0 + own[l] * tangent[l]));
+        for number in 0..groups.len() {
+            let force = &groups[number].outer_radial;
+            let turning = each(|l| -(speed * force[l]));
+            if is_zero(&turning) {
+                continue;
+            }
+            let columns = coupling.slope_columns::<B>(number);
+            for (place, group) in groups.iter_mut().enumerate() {
+                group.approach = with_columns(&group.approach, columns.map(|column| &column[place]), &turning);
+            }
         }
-    }
-
-    /// A Jacobi sweep of `r_i = v_i - sum G_ij (f'_j r_j + g_j)` with the laws of the last sweep, g what grows along waves or damage.
-    #[inline(always)]
-    fn rates_on_moving_race<const B: usize>(&mut self) {
-        let Some(coupling) = &self.residual else {
-            return;
-        };
-        let groups = first_mut::<B, _>(&mut self.balls.groups);
-        for group in &mut *groups {
-            group.yielding = [0.0; LANES];
-        }
-        let growing = |group: &BallGroup| {
-            let (rate, tangent, growth) = (&group.rate, &group.law[1], &group.growth);
-            each(|l| tangent[l] * rate[l] + growth[l])
-        };
-        add_columns(groups, growing, |ball| coupling.column::<B>(ball), |group| &mut group.yielding);
         for group in groups {
-            let (before, own, tangent) = (&group.rate, &group.own, &group.law[1]);
-            let (approach, yielding) = (&group.approach, &group.yielding);
-            group.rate = each(|l| {
-                let share = own[l] * tangent[l];
-                (approach[l] - yielding[l] + share * before[l]) / (1.0 + share)
-            });
+            let (approach, own, growth, yields) = (&group.approach, &group.own, &group.growth, &group.yields);
+            group.rate = each(|l| fused(-own[l], growth[l], approach[l]) * yields[l]);
         }
     }
 
@@ -285,26 +309,17 @@ impl CoupledSystem {
     }
 }
 
-/// Adds to something of each group the columns of all balls, each times a factor of its ball.
+/// A sum and the columns of four balls at the same place, each times a factor of its ball; none of the products waits for all others.
 #[inline(always)]
-fn add_columns<'c>(
-    groups: &mut [BallGroup],
-    factors: impl Fn(&BallGroup) -> Lanes,
-    column: impl Fn(usize) -> &'c [Lanes],
-    sum: impl Fn(&mut BallGroup) -> &mut Lanes,
-) {
-    for number in 0..groups.len() {
-        for (lane, factor) in factors(&groups[number]).into_iter().enumerate() {
-            if factor == 0.0 {
-                continue;
-            }
-            for (group, column) in groups.iter_mut().zip(column(number * LANES + lane)) {
-                let sum = sum(group);
-                let before = *sum;
-                *sum = each(|l| before[l] + column[l] * factor);
-            }
-        }
-    }
+fn with_columns(sum: &Lanes, [a, b, c, d]: [&Lanes; LANES], factors: &Lanes) -> Lanes {
+    let [p, q, r, s] = *factors;
+    each(|l| sum[l] + (fused(b[l], q, a[l] * p) + fused(d[l], s, c[l] * r)))
+}
+
+/// Whether none of them counts; what is not a number does.
+#[inline(always)]
+fn is_zero(factors: &Lanes) -> bool {
+    factors.iter().all(|&factor| factor == 0.0)
 }
 
 #[inline(always)]

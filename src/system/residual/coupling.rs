@@ -4,9 +4,11 @@
 //! until quintics with the values and slopes of their ends and their middle reproduce them to [`ACCURACY`]; a stretch lasts
 //! many steps, and its quintics are made when it is entered.
 
-use super::super::raceway::{Quintic, slope, value};
+use super::super::balls::BallGroup;
+use super::super::raceway::{Quintic, slope, value, value_and_slope};
 use super::{ResidualFlexibility, Touch};
-use crate::numerics::lanes::{LANES, Lanes, each, first, first_mut, together};
+use crate::numerics::lanes::{LANES, Lanes, each, first, first_mut, fused, together, total};
+use multiversion::multiversion;
 use std::f64::consts::TAU;
 
 /// Largest deviation of the quintics, relative to the largest flexibility between balls. The residual is some percent of what a
@@ -96,29 +98,32 @@ impl Coupling {
         let range = k * self.groups..(k + 1) * self.groups;
         let quintics = first::<B, _>(&self.made[slot].quintics[range.clone()]);
         let values = first_mut::<B, _>(&mut self.values[range.clone()]);
-        for (out, quintic) in values.iter_mut().zip(quintics) {
-            *out = together(value(quintic, x));
-        }
-        if with_slopes {
-            let scale = 2.0 * self.stretches as f64 / TAU;
-            let slopes = first_mut::<B, _>(&mut self.slopes[range]);
-            for (out, quintic) in slopes.iter_mut().zip(quintics) {
-                let slopes = slope(quintic, x);
-                *out = together(each(|l| scale * slopes[l]));
+        if !with_slopes {
+            for (out, quintic) in values.iter_mut().zip(quintics) {
+                *out = together(value(quintic, x));
             }
+            return;
+        }
+        let scale = 2.0 * self.stretches as f64 / TAU;
+        let slopes = first_mut::<B, _>(&mut self.slopes[range]);
+        for ((value, slope), quintic) in values.iter_mut().zip(slopes).zip(quintics) {
+            let [values, slopes] = value_and_slope(quintic, x);
+            *value = together(values);
+            *slope = together(each(|l| scale * slopes[l]));
         }
     }
 
-    /// Radial displacement of the balls for a radial force at ball `k` \[groups\], m/N; `B` of the groups, or all for 0.
+    /// Radial displacement of the balls for radial forces at the four balls of a group \[groups\], m/N; `B` of the groups, or all for
+    /// 0. Columns of balls that are far from the race are stale, but numbers.
     #[inline(always)]
-    pub(crate) fn column<const B: usize>(&self, k: usize) -> &[Lanes] {
-        first::<B, _>(&self.values[k * self.groups..(k + 1) * self.groups])
+    pub(crate) fn columns<const B: usize>(&self, group: usize) -> [&[Lanes]; LANES] {
+        columns::<B>(&self.values, group, self.groups)
     }
 
-    /// Its derivative by the cage angle \[groups\], m/(N rad).
+    /// Their derivatives by the cage angle \[groups\], m/(N rad).
     #[inline(always)]
-    pub(crate) fn slope_column<const B: usize>(&self, k: usize) -> &[Lanes] {
-        first::<B, _>(&self.slopes[k * self.groups..(k + 1) * self.groups])
+    pub(crate) fn slope_columns<const B: usize>(&self, group: usize) -> [&[Lanes]; LANES] {
+        columns::<B>(&self.slopes, group, self.groups)
     }
 
     /// Radial displacement of ball `j` for a radial force at ball `k`, m/N.
@@ -130,17 +135,15 @@ impl Coupling {
     /// Radial displacement of the balls under the weight \[groups\], m.
     #[inline(always)]
     pub(crate) fn weight<const B: usize>(&self) -> &[Lanes] {
-        self.column::<B>(self.balls)
+        first::<B, _>(&self.values[self.balls * self.groups..])
     }
 
     /// Displacement of a sensor for radial forces at the balls (N), m.
     #[inline]
-    pub(crate) fn at_sensor(&self, sensor: usize, forces: impl Iterator<Item = f64>) -> f64 {
+    pub(crate) fn at_sensor(&self, sensor: usize, balls: &[BallGroup]) -> f64 {
         let (slot, x) = self.at;
         let first = (self.balls + 1 + sensor) * self.groups;
-        let quintics = &self.made[slot].quintics[first..first + self.groups];
-        let row = quintics.iter().flat_map(|quintic| value(quintic, x));
-        row.zip(forces).map(|(row, force)| row * force).sum()
+        displacement(&self.made[slot].quintics[first..first + self.groups], x, balls)
     }
 
     /// Rate by the cage angle (N m/rad) of the work of radial forces F at the balls, `F . w + F . G F / 2` with the flexibility
@@ -247,6 +250,23 @@ impl Coupling {
         }
         worst / largest.max(f64::MIN_POSITIVE)
     }
+}
+
+/// Sum over the radial forces at the balls (N), each times its quintic at a place.
+#[multiversion(targets("x86_64+avx2+fma", "aarch64+neon"), dispatcher = "direct")]
+fn displacement(quintics: &[Quintic], x: f64, balls: &[BallGroup]) -> f64 {
+    let mut sums = [0.0; LANES];
+    for (quintic, BallGroup { outer_radial, .. }) in quintics.iter().zip(balls) {
+        let row = value(quintic, x);
+        sums = each(|l| fused(row[l], outer_radial[l], sums[l]));
+    }
+    total(&sums)
+}
+
+#[inline(always)]
+fn columns<const B: usize>(values: &[Lanes], group: usize, groups: usize) -> [&[Lanes]; LANES] {
+    let start = group * LANES * groups;
+    [0, 1, 2, 3].map(|l| first::<B, _>(&values[start + l * groups..start + (l + 1) * groups]))
 }
 
 fn least_common_multiple(a: usize, b: usize) -> usize {

@@ -41,7 +41,7 @@ impl InnerRing {
     }
 }
 
-#[multiversion(targets("x86_64+avx2", "aarch64+neon"), dispatcher = "direct")]
+#[multiversion(targets("x86_64+avx2+fma", "aarch64+neon"), dispatcher = "direct")]
 pub(super) fn evaluate(system: &mut SpatialSystem, t: f64, y: &[f64], v: &[f64], g: &mut [f64]) {
     let modes = system.modes;
     let shaft = system.setup.bearings[0].cage.shaft();

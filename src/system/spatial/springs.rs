@@ -8,7 +8,7 @@ use multiversion::multiversion;
 
 /// Of a ball: the stiffness of both contacts along its coordinates over its mass. Shaft and modes have no spring, for they weigh far
 /// more. Sizes are the sums of the magnitudes of which the forces are the sums.
-#[multiversion(targets("x86_64+avx2", "aarch64+neon"), dispatcher = "direct")]
+#[multiversion(targets("x86_64+avx2+fma", "aarch64+neon"), dispatcher = "direct")]
 pub(super) fn find_own_springs(system: &SpatialSystem, springs: &mut [f64], sizes: &mut [f64]) {
     let modes = system.modes;
     let mut first = modes + SHAFT;

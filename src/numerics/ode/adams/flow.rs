@@ -1,7 +1,7 @@
 //! The exact flow of coordinates side by side over one step.
 
 use super::super::propagator::Propagator;
-use crate::numerics::lanes::{LANES, Lanes, each};
+use crate::numerics::lanes::{LANES, Lanes, each, fused};
 use crate::numerics::ode::LinearCoordinate;
 
 /// Exact flow of a group of coordinates over a step, under a constant force and one that grows to it: what [`Propagator`] says
@@ -36,18 +36,17 @@ const LARGEST_PHASE: f64 = 4.0;
 /// phase.
 const TERMS: usize = 7;
 
-/// `(-1)^k / (2 k + 2)!`, `(-1)^k / (2 k + 3)!` and `2 (-1)^k / (2 k + 4)!`, highest k first.
-const SERIES: [[f64; 3]; TERMS] = series();
+/// `(-1)^k / (2 k + 3)!` and `2 (-1)^k / (2 k + 4)!`, highest k first.
+const SERIES: [[f64; 2]; TERMS] = series();
 
-const fn series() -> [[f64; 3]; TERMS] {
-    let mut out = [[0.0; 3]; TERMS];
+const fn series() -> [[f64; 2]; TERMS] {
+    let mut out = [[0.0; 2]; TERMS];
     let (mut factorial, mut sign, mut k) = (1.0, 1.0, 0);
     while k < TERMS {
         factorial *= if k == 0 { 2.0 } else { (2 * k + 2) as f64 };
-        let even = sign / factorial;
         factorial *= (2 * k + 3) as f64;
         let odd = sign / factorial;
-        out[TERMS - 1 - k] = [even, odd, 2.0 * odd / (2 * k + 4) as f64];
+        out[TERMS - 1 - k] = [odd, 2.0 * odd / (2 * k + 4) as f64];
         sign = -sign;
         k += 1;
     }
@@ -89,16 +88,17 @@ impl GroupFlow {
         let most = LARGEST_PHASE / (step * step);
         let springs = each(|l| if springs[l] < most { springs[l] } else { most });
         let x = each(|l| springs[l] * step * step);
-        // responses to 1, to the line and to the square over those without a spring
         let mut sums = SERIES[0].map(|last| [last; LANES]);
         for terms in &SERIES[1..] {
             for (sum, term) in sums.iter_mut().zip(terms) {
-                *sum = each(|l| sum[l] * x[l] + term);
+                *sum = each(|l| fused(sum[l], x[l], *term));
             }
         }
-        let over = sums.map(|sum| each(|l| step * sum[l]));
+        // responses to the line and to the square over those without a spring, and to 1 from the latter
+        let [sine, bend] = sums;
+        let cosine = each(|l| fused(-0.5 * x[l], bend[l], 0.5));
+        let over = [cosine, sine, bend].map(|sum| each(|l| step * sum[l]));
         let [response, ramp, square] = over.map(|over| each(|l| step * over[l]));
-        let [cosine, sine, _] = sums;
         let flow = Self {
             position_position: [1.0; LANES],
             position_velocity: each(|l| step * (1.0 - x[l] * sine[l])),

@@ -1,7 +1,7 @@
 //! One step of the exponential Adams method, coordinates side by side.
 
 use super::flow::{Flow, GroupFlow};
-use crate::numerics::lanes::{LANES, Lanes, each, from, put, together};
+use crate::numerics::lanes::{LANES, Lanes, each, from, fused, put, together};
 use crate::numerics::ode::{Exchange, LinearCoordinate, SecondOrderSystem, SnapshotError};
 use multiversion::multiversion;
 
@@ -213,18 +213,20 @@ fn each_group(
     [free, all]: [usize; 2],
     mut on: impl FnMut(usize, &mut Group, std::ops::Range<usize>),
 ) {
-    let (mut number, mut start) = (0, 0);
-    for end in [free, all] {
-        while start < end {
+    let (held, others) = groups.split_at_mut(free.div_ceil(LANES));
+    let mut number = 0;
+    for (groups, first, end) in [(held, 0, free), (others, free, all)] {
+        let mut start = first;
+        for group in groups {
             let next = (start + LANES).min(end);
-            on(number, &mut groups[number], start..next);
+            on(number, group, start..next);
             (number, start) = (number + 1, next);
         }
     }
 }
 
 /// Begins where the state is.
-#[multiversion(targets("x86_64+avx2", "aarch64+neon"), dispatcher = "direct")]
+#[multiversion(targets("x86_64+avx2+fma", "aarch64+neon"), dispatcher = "direct")]
 pub(super) fn begin(track: &mut Track, [y, v, g]: [&[f64]; 3]) {
     let shape = [track.free, track.position.len()];
     each_group(&mut track.groups, shape, |_, group, place| {
@@ -234,7 +236,7 @@ pub(super) fn begin(track: &mut Track, [y, v, g]: [&[f64]; 3]) {
     });
 }
 
-#[multiversion(targets("x86_64+avx2", "aarch64+neon"), dispatcher = "direct")]
+#[multiversion(targets("x86_64+avx2+fma", "aarch64+neon"), dispatcher = "direct")]
 fn predict(track: &mut Track, flow: &Flow) {
     let Track { free, with_springs, weights, .. } = *track;
     let (position, velocity) = (&mut track.position, &mut track.velocity);
@@ -257,29 +259,30 @@ fn advance(group: &mut Group, flow: &GroupFlow, weights: &Weights) {
     let (y, v, g, spring) = (&group.y, &group.v, &group.g, &group.spring);
     let (before, two_before) = (&group.before, &group.two_before);
     let (place, place_two) = (&group.place_before, &group.place_two_before);
-    let rise = each(|l| (g[l] - before[l]) + spring[l] * (y[l] - place[l]));
-    let earlier = each(|l| (before[l] - two_before[l]) + spring[l] * (place[l] - place_two[l]));
+    let rise = each(|l| fused(spring[l], y[l] - place[l], g[l] - before[l]));
+    let earlier = each(|l| fused(spring[l], place[l] - place_two[l], before[l] - two_before[l]));
     let line = each(|l| weights.line * rise[l]);
-    let bow = each(|l| weights.bow[0] * rise[l] - weights.bow[1] * earlier[l]);
-    let lean = each(|l| line[l] + weights.lean * bow[l]);
+    let bow = each(|l| fused(-weights.bow[1], earlier[l], weights.bow[0] * rise[l]));
+    let lean = each(|l| fused(weights.lean, bow[l], line[l]));
     group.line = line;
     group.parabola = each(|l| lean[l] + bow[l]);
     group.over = flow.over;
     let curve = if weights.of.quadratic { [lean, bow] } else { [line, [0.0; LANES]] };
     let [linear, square] = &curve;
     group.position = each(|l| {
-        (flow.position_position[l] * y[l] + flow.position_velocity[l] * v[l])
-            + (flow.response[l] * g[l] + flow.ramp[l] * linear[l] + flow.square[l] * square[l])
+        let forced = fused(flow.square[l], square[l], fused(flow.ramp[l], linear[l], flow.response[l] * g[l]));
+        fused(flow.position_position[l], y[l], fused(flow.position_velocity[l], v[l], forced))
     });
     let [over, ramp_over, _] = &flow.over;
     group.velocity = each(|l| {
-        (flow.velocity_position[l] * y[l] + flow.velocity_velocity[l] * v[l])
-            + (flow.position_velocity[l] * g[l] + over[l] * linear[l] + 2.0 * ramp_over[l] * square[l])
+        let forced = fused(over[l], linear[l], flow.position_velocity[l] * g[l]);
+        let forced = fused(2.0 * ramp_over[l], square[l], forced);
+        fused(flow.velocity_position[l], y[l], fused(flow.velocity_velocity[l], v[l], forced))
     });
 }
 
 /// Sets the defects; gives the largest error that line and parabola leave. What is not a number does not count.
-#[multiversion(targets("x86_64+avx2", "aarch64+neon"), dispatcher = "direct")]
+#[multiversion(targets("x86_64+avx2+fma", "aarch64+neon"), dispatcher = "direct")]
 fn compare(track: &mut Track) -> [f64; 2] {
     let shape = [track.free, track.position.len()];
     let (force, weights) = (&track.force, track.weights);
@@ -288,7 +291,7 @@ fn compare(track: &mut Track) -> [f64; 2] {
         group.force = from(&force[place]);
         let (next, now, largest) = (&group.force, &group.g, &group.largest);
         let (end, start, spring) = (&group.position, &group.y, &group.spring);
-        let rise = each(|l| (next[l] - now[l]) + spring[l] * (end[l] - start[l]));
+        let rise = each(|l| fused(spring[l], end[l] - start[l], next[l] - now[l]));
         let unit = each(|l| larger(largest[l], next[l].abs()) + f64::MIN_POSITIVE);
         let share = each(|l| weights.share / unit[l]);
         let (line, parabola) = (&group.line, &group.parabola);
@@ -307,7 +310,7 @@ fn larger(a: f64, b: f64) -> f64 {
     if b > a { b } else { a }
 }
 
-#[multiversion(targets("x86_64+avx2", "aarch64+neon"), dispatcher = "direct")]
+#[multiversion(targets("x86_64+avx2+fma", "aarch64+neon"), dispatcher = "direct")]
 fn accept(track: &mut Track) {
     let [line, square, cube] = track.weights.correction;
     let velocity = &mut track.velocity;
@@ -315,8 +318,8 @@ fn accept(track: &mut Track) {
     each_group(&mut track.groups, shape, |_, group, place| {
         let (predicted, defect, over) = (&group.velocity, &group.defect, &group.over);
         group.v = each(|l| {
-            let correction = line * over[0][l] + square * over[1][l] + cube * over[2][l];
-            predicted[l] + correction * defect[l]
+            let correction = fused(cube, over[2][l], fused(square, over[1][l], line * over[0][l]));
+            fused(correction, defect[l], predicted[l])
         });
         put(&group.v, &mut velocity[place]);
         (group.place_two_before, group.two_before) = (group.place_before, group.before);
@@ -327,7 +330,7 @@ fn accept(track: &mut Track) {
     });
 }
 
-#[multiversion(targets("x86_64+avx2", "aarch64+neon"), dispatcher = "direct")]
+#[multiversion(targets("x86_64+avx2+fma", "aarch64+neon"), dispatcher = "direct")]
 fn take_springs(track: &mut Track) {
     let (free, springs, sizes) = (track.free, &track.springs, &track.sizes);
     let shape = [free, springs.len()];
