@@ -40,9 +40,7 @@ pub use kurtogram::{Kurtogram, KurtogramBand, kurtogram};
 pub use lines::{EnvelopePeak, LINE_TOLERANCE, LineMatch, NamedLine, PeakSearch, envelope_peaks, lines_at, match_line};
 pub use scalogram::{FrequencyAxis, Scalogram, WaveletTransform};
 pub use spectral_kurtosis::{SpectralKurtosis, spectral_kurtosis};
-pub use spectrum::{
-    AmplitudeSpectrum, BandLevel, DEFAULT_BIN_HZ, Peak, amplitude_spectrum, local_maxima, peak_near, third_octaves,
-};
+pub use spectrum::{AmplitudeSpectrum, BandLevel, DEFAULT_BIN_HZ, Peak, amplitude_spectrum, peak_near, third_octaves};
 pub use welch::{PowerScaling, PowerSpectrum, Welch};
 pub(crate) use white_spectrum::{BandEnvelope, RawSpectrum, WhiteSpectrum, running_median};
 pub use whitening::{Emphasis, whiten};

@@ -157,7 +157,7 @@ pub struct Peak {
 /// cut), in order of frequency. With bins a_(m-1) < a_m >= a_(m+1) the maximum lies
 /// d = (a_(m-1) - a_(m+1)) / (2 (a_(m-1) - 2 a_m + a_(m+1))) bins beside bin m, and is a_m - d (a_(m-1) - a_(m+1)) / 4
 /// high. The first and the last bin are no maxima.
-pub fn local_maxima(frequency_hz: &[f64], amplitude: &[f64]) -> Vec<Peak> {
+pub(super) fn local_maxima(frequency_hz: &[f64], amplitude: &[f64]) -> Vec<Peak> {
     frequency_hz
         .windows(3)
         .zip(amplitude.windows(3))
@@ -259,7 +259,7 @@ mod tests {
             let series = TimeSeries::new(0.0, 1e-3, "m", values.collect()).expect("a valid series");
             let spectrum = amplitude_spectrum(&series, WindowFunction::Boxcar, bin_hz).expect("spectrum");
             assert!((spectrum.resolution_hz - 1.0).abs() < 1e-12);
-            let peaks = crate::signal::local_maxima(&spectrum.frequency_hz, &spectrum.amplitude);
+            let peaks = local_maxima(&spectrum.frequency_hz, &spectrum.amplitude);
             peaks.iter().filter(|p| p.amplitude > 0.5).count()
         };
         for bin_hz in [0.25, 0.01] {

@@ -34,8 +34,11 @@ impl Equations {
         let run = case.for_run()?;
         let scene = Scene::build(run, &Unwatched)?;
         let chosen = ModelChoice::of_case(run, &scene)?.model;
-        let system = scene.system(&chosen)?;
-        let rest = scene.at_rest(&system);
+        let mut setup = scene.setup.clone();
+        setup.balls_inertia = chosen.balls_inertia;
+        let (structure, modes) = (&scene.stage.structure, &scene.stage.modes);
+        let system = CoupledSystem::new(structure, modes, setup, chosen.modes, &scene.damping, chosen.residual)?;
+        let rest = system.state_at(scene.start, &scene.equilibrium, modes);
         let dof = rest.y.len();
         Ok(Self {
             system,

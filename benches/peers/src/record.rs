@@ -32,7 +32,7 @@ pub fn acceleration(
     let record = recorder.finish();
     let (_, values) = record.sensors.into_iter().next().ok_or("no sensor")?;
     let series = TimeSeries::new(0.0, f64::from(ratio) * interval, "m/s^2", values)?;
-    Ok(band_limit(&series, band_hz)?.into_values())
+    Ok(band_limit(&series, band_hz)?.values().to_vec())
 }
 
 /// States at equal intervals from those at the steps of an integrator that has nothing between them: from each of them on by

@@ -182,7 +182,7 @@ impl HousingModel {
     }
 
     /// Coordinates of a node in the bearing's frame, m.
-    pub fn ring_coordinates(&self, node: usize) -> [f64; 3] {
+    pub(crate) fn ring_coordinates(&self, node: usize) -> [f64; 3] {
         self.frame.point(self.coordinates[node])
     }
 

@@ -194,7 +194,7 @@ impl Tangent {
     }
 
     /// Takes all terms out; the memory stays.
-    pub(crate) fn clear(&mut self) {
+    pub fn clear(&mut self) {
         self.terms = 0;
     }
 
@@ -234,7 +234,7 @@ impl Tangent {
     }
 
     /// Adds the change of force for a change of the state to `dg`, all \[dof\].
-    pub(crate) fn apply(&self, dy: &[f64], dv: &[f64], dg: &mut [f64]) {
+    pub fn apply(&self, dy: &[f64], dv: &[f64], dg: &mut [f64]) {
         for term in 0..self.terms {
             let factor = dot(self.position(term), dy) + dot(self.velocity(term), dv);
             for (dg, left) in dg.iter_mut().zip(self.left(term)) {
