@@ -20,7 +20,7 @@ help:
 	@echo "make docs    documentation of the library"
 	@echo "make bench   benchmarks"
 	@echo "make bench-peers  other integrators on the same equations (needs numpy, scipy, scikit-sundae)"
-	@echo "make bench-all  every table of docs/performance.md (hours; needs gmsh, ccx, slepc4py, numpy, scipy, scikit-sundae, scikit-sparse, exudyn)"
+	@echo "make bench-all  most tables of docs/performance.md (hours; needs gmsh, ccx, slepc4py, numpy, scipy, scikit-sundae, scikit-sparse, exudyn)"
 	@echo "make clean   remove what was built and computed"
 
 setup:
@@ -80,7 +80,7 @@ bench: setup
 bench-peers: setup
 	python3 benches/peers.py
 
-# The tables of docs/performance.md: hours on an idle machine, with gmsh, CalculiX and SLEPc installed.
+# Most tables of docs/performance.md: hours on an idle machine, with gmsh, CalculiX and SLEPc installed.
 bench-all: bench
 	cargo build --release
 	python3 benches/housings.py
