@@ -52,7 +52,7 @@ impl CondensedHousing {
         choice: BasisChoice,
         watch: &impl Watch,
     ) -> Result<Option<Self>, ComputeError> {
-        let Some(housing) = AssembledHousing::build(case, watch)? else {
+        let Some(housing) = AssembledHousing::ordered(case, watch)? else {
             return Ok(None);
         };
         let asked = case.frf.as_ref().and_then(|frf| frf.band_hz).map_or(0.0, |[_, high]| high);

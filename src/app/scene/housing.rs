@@ -40,7 +40,15 @@ impl AssembledHousing {
     /// As [`AssembledHousing::build`].
     pub(crate) fn of(case: &Case, watch: &impl Watch) -> Result<Self, ComputeError> {
         let nothing = || case.broken(&Rule::nothing_to_model().at("housing"));
-        Self::assembled(case, watch, SystemMatrices::assemble_and_order)?.ok_or_else(|| nothing().into())
+        Self::ordered(case, watch)?.ok_or_else(|| nothing().into())
+    }
+
+    /// The housing of a case of which free degrees of freedom are factorised, all or most of them; `None` without one.
+    ///
+    /// # Errors
+    /// As [`AssembledHousing::build`].
+    pub(super) fn ordered(case: &Case, watch: &impl Watch) -> Result<Option<Self>, ComputeError> {
+        Self::assembled(case, watch, SystemMatrices::assemble_and_order)
     }
 
     fn assembled(

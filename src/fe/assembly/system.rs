@@ -91,7 +91,8 @@ impl SystemMatrices {
                 mass: congruence(&self.mass, rotation),
                 weight: transpose_times_dense(rotation, &self.weight),
                 total_mass: self.total_mass,
-                ordering: None,
+                // a rotation couples unknowns of one node
+                ordering: self.ordering,
             },
         }
     }

@@ -15,7 +15,7 @@ use super::selection::choose_basis;
 use super::{Attached, InteriorBasis, ReductionError, Substructure};
 use crate::fe::assembly::SystemMatrices;
 use crate::fe::model::HousingPartition;
-use crate::numerics::linalg::{DenseMatrix, SparseMatrix, sparse_times_dense, transpose_times_dense};
+use crate::numerics::linalg::{DenseMatrix, SparseMatrix, sparse_times_dense, times, transpose_times_dense};
 use crate::numerics::{Unwatched, Watch};
 
 /// Columns that are condensed at once.
@@ -89,9 +89,9 @@ impl CraigBampton {
     pub(crate) fn project(&self, load: &DenseMatrix) -> DenseMatrix {
         let partition = &self.substructure.partition;
         let (interior, driven) = (self.interior_of(load), rows_of(load, &partition.driven));
-        let interface =
-            transpose_times_dense(&partition.tie, &driven) + self.substructure.constraint_modes.transpose() * &interior;
-        faer::concat![[interface], [self.basis.vectors.transpose() * &interior]]
+        let follow = times(self.substructure.constraint_modes.transpose(), interior.as_ref());
+        let interface = transpose_times_dense(&partition.tie, &driven) + follow;
+        faer::concat![[interface], [times(self.basis.vectors.transpose(), interior.as_ref())]]
     }
 
     /// `V^T A V` [order x order] of a matrix over the housing's degrees of freedom, V the columns of [`field`](Self::field).
@@ -146,7 +146,8 @@ impl CraigBampton {
         let interface = self.superelement.interface_dof;
         let boundary = coordinates.subrows(0, interface);
         let amplitudes = coordinates.subrows(interface, self.basis.count());
-        let interior = &self.substructure.constraint_modes * boundary + &self.basis.vectors * amplitudes;
+        let following = times(self.substructure.constraint_modes.as_ref(), boundary);
+        let interior = following + times(self.basis.vectors.as_ref(), amplitudes);
         let driven = sparse_times_dense(&partition.tie, &boundary.to_owned());
         let mut all = self.interior_field(&interior, dof);
         for column in 0..coordinates.ncols() {

@@ -28,8 +28,8 @@ use crate::fe::assembly::SystemMatrices;
 use crate::fe::model::HousingPartition;
 use crate::numerics::Told;
 use crate::numerics::linalg::{
-    DenseMatrix, EigenPairs, EigenProblem, Followers, LinalgError, SparseCholesky, SparseMatrix, TripletBuilder,
-    sparse_times_dense, submatrix, symmetric_eigen, transpose_times_dense,
+    DenseMatrix, EigenPairs, EigenProblem, Followers, LinalgError, Ordering, Pattern, SparseCholesky, SparseMatrix,
+    TripletBuilder, sparse_times_dense, submatrix, symmetric_eigen, transpose_times_dense,
 };
 use faer::prelude::*;
 use std::sync::Arc;
@@ -86,28 +86,33 @@ impl Interior {
             Some(means) => means.free.iter().map(|&place| i[place]).collect(),
             None => i.clone(),
         };
-        let dof = |row: usize| places.get(row).copied().unwrap_or(0);
-        let soft = |row, contraction| ReductionError::SoftInterior {
-            dof: dof(row),
-            error: contraction,
-            limit: LARGEST_CONTRACTION,
-        };
+        let soft =
+            |dof, contraction| ReductionError::SoftInterior { dof, error: contraction, limit: LARGEST_CONTRACTION };
         let floating = |error| match error {
             LinalgError::NotPositiveDefinite { pivot, .. } => {
-                ReductionError::FloatingInterior { interior: i.len(), dof: dof(pivot) }
+                ReductionError::FloatingInterior { interior: i.len(), dof: pivot }
             }
             LinalgError::IllConditioned { row, contraction, .. } => soft(row, contraction),
             other => other.into(),
         };
-        let [k, m] = [&matrices.stiffness, &matrices.mass].map(|a| submatrix(a, &places, &places));
-        let [of_k, of_m] = [0, 1].map(|which| held.as_ref().map(|means| means.followers(which)));
-        let factor = SparseCholesky::with_followers(&k, of_k.as_ref()).map_err(floating)?;
+        let SystemMatrices { stiffness, mass, .. } = matrices;
+        let pattern = Pattern::of(stiffness);
+        let ordering = match &matrices.ordering {
+            Some(of_all) => of_all.restricted(pattern, &places)?,
+            None => Ordering::of_part(pattern, &places)?,
+        };
+        let followers = held.as_ref().map(|means| [0, 1].map(|which| means.followers(which)));
+        let followers = followers.as_ref().map(|[of_k, of_m]| [of_k, of_m]);
+        let (problem, factor) = EigenProblem::factorised([stiffness, mass], ordering, followers).map_err(floating)?;
         if factor.contraction() > LARGEST_CONTRACTION {
             return Err(soft(factor.weakest_row(), factor.contraction()));
         }
-        let both = of_k.as_ref().zip(of_m.as_ref()).map(<[&Followers; 2]>::from);
-        let problem = EigenProblem::with_factor([&k, &m], both, &factor)?;
         Ok(Self { interface: partition.tie.cols(), factor, problem, held })
+    }
+
+    /// Whether the interface holds means of the interior.
+    pub(super) fn holds_means(&self) -> bool {
+        self.held.is_some()
     }
 
     /// Number of independent motions of the interior while the interface is held.

@@ -24,7 +24,7 @@ use super::parts::{diagonal, normalised, symmetric};
 use super::{ReductionError, Substructure};
 use crate::numerics::Watch;
 use crate::numerics::linalg::{
-    DenseMatrix, EigenPairs, SymmetricSpectrum, symmetric_eigen, symmetric_generalised_eigen,
+    DenseMatrix, EigenPairs, SymmetricSpectrum, symmetric_eigen, symmetric_generalised_eigen, times,
 };
 use faer::MatRef;
 
@@ -104,27 +104,27 @@ impl InteriorBasis {
     /// Of vectors `z` [interior x k] what is orthogonal to the basis, orthonormal.
     fn independent(&self, substructure: &Substructure, mut z: DenseMatrix) -> Result<DenseMatrix, ReductionError> {
         let before = lengths(&substructure.interior.mass_times(&z), &z);
-        let inside = self.vectors.transpose() * substructure.interior.mass_times(&z);
-        z -= &self.vectors * inside;
+        let inside = times(self.vectors.transpose(), substructure.interior.mass_times(&z).as_ref());
+        z -= times(self.vectors.as_ref(), inside.as_ref());
         let after = lengths(&substructure.interior.mass_times(&z), &z);
         let new: Vec<usize> = (0..z.ncols()).filter(|&column| after[column] > CONTAINED * before[column]).collect();
         let z = DenseMatrix::from_fn(z.nrows(), new.len(), |row, column| z[(row, new[column])] / after[new[column]]);
-        let normal = normalised(&(z.transpose() * substructure.interior.mass_times(&z)), DEPENDENT)?;
-        Ok(z * normal)
+        let gram = times(z.transpose(), substructure.interior.mass_times(&z).as_ref());
+        Ok(times(z.as_ref(), normalised(&gram, DEPENDENT)?.as_ref()))
     }
 
     /// The basis with orthonormal vectors that are orthogonal to it, turned to its Ritz vectors.
     fn joined(&self, substructure: &Substructure, z: &DenseMatrix) -> Result<Self, ReductionError> {
         let q = self.count();
         let stiff = substructure.interior.stiffness_times(z);
-        let coupling = self.vectors.transpose() * &stiff;
-        let own = z.transpose() * &stiff;
+        let coupling = times(self.vectors.transpose(), stiff.as_ref());
+        let own = times(z.transpose(), stiff.as_ref());
         let stiffness = faer::concat![[diagonal(&self.values), coupling], [coupling.transpose(), symmetric(&own)]];
         let ritz = symmetric_eigen(&stiffness)?;
         let (old, new) = (ritz.vectors.subrows(0, q), ritz.vectors.subrows(q, z.ncols()));
         let of_new = substructure.follow_transposed(z);
         Ok(Self {
-            vectors: &self.vectors * old + z * new,
+            vectors: times(self.vectors.as_ref(), old) + times(z.as_ref(), new),
             participation: old.transpose() * &self.participation + new.transpose() * of_new.transpose(),
             values: ritz.values,
             residual_vectors: self.residual_vectors + z.ncols(),
@@ -205,7 +205,7 @@ pub(super) fn interior_inertia(
     let interface = substructure.interface_dof();
     let amplitudes = coordinates.subrows(interface, basis.count());
     substructure.follow(&coordinates.subrows(0, interface).to_owned())
-        + substructure.interior.mass_times(&(&basis.vectors * amplitudes))
+        + substructure.interior.mass_times(&times(basis.vectors.as_ref(), amplitudes))
 }
 
 /// What the interior's equations lack, for modes `chosen` of `modes` [interior x chosen]:
@@ -226,7 +226,7 @@ pub(super) fn interior_residuals(
         DenseMatrix::from_fn(modes.vectors.nrows(), chosen.len(), |row, column| modes.vectors[(row, chosen[column])]);
     let mut residual = interior_inertia(substructure, basis, &coordinates);
     let amplitudes = coordinates.subrows(substructure.interface_dof(), basis.count());
-    let stiff = substructure.interior.stiffness_times(&(&basis.vectors * amplitudes));
+    let stiff = substructure.interior.stiffness_times(&times(basis.vectors.as_ref(), amplitudes));
     for (column, &mode) in chosen.iter().enumerate() {
         let lambda = modes.values[mode];
         let stiff = stiff.col_as_slice(column);

@@ -27,10 +27,12 @@ use super::parts::{add_columns, columns_of, dense, symmetric};
 use crate::fe::assembly::SystemMatrices;
 use crate::fe::model::HousingPartition;
 use crate::numerics::linalg::{
-    DenseMatrix, EigenPairs, SparseMatrix, congruence, sparse_times_dense, submatrix, transpose_times_dense,
+    DenseMatrix, EigenPairs, SparseMatrix, congruence, sparse_times_dense, submatrix, times, transpose_times_dense,
 };
 use crate::numerics::{Unwatched, Watch};
 use faer::{MatMut, MatRef};
+use rayon::prelude::*;
+use std::ops::Range;
 
 /// Interface coordinates that are handled at once: their products with the interior stay small beside the constraint
 /// modes.
@@ -112,48 +114,75 @@ impl Substructure {
 
     fn condense_statically(&mut self, stiffness_ib: &SparseMatrix, watch: &dyn Watch) -> Result<(), ReductionError> {
         let order = self.interface_dof();
-        for first in (0..order).step_by(BLOCK) {
-            watch.fraction(first as f64 / order as f64);
-            let width = BLOCK.min(order - first);
-            let mut pulled = columns_of(stiffness_ib, first, width);
-            let lift = self.interior.lift(first, width);
-            if let Some(lift) = &lift {
-                let stiff = self.interior.stiffness_times(lift);
-                for column in 0..width {
-                    let parts = (0..lift.nrows())
-                        .map(|row| lift[(row, column)] * (2.0 * pulled[(row, column)] + stiff[(row, column)]));
-                    self.made_of[first + column] += parts.sum::<f64>();
+        let blocks: Vec<Range<usize>> =
+            (0..order).step_by(BLOCK).map(|first| first..order.min(first + BLOCK)).collect();
+        // no more at once than there are threads: each takes the memory of some blocks
+        for together in blocks.chunks(rayon::current_num_threads()) {
+            watch.fraction(together[0].start as f64 / order as f64);
+            let modes = together.par_iter().map(|block| self.modes(stiffness_ib, block));
+            let modes: Vec<(DenseMatrix, Vec<f64>)> = modes.collect::<Result<_, _>>()?;
+            for (block, (modes, made_of)) in together.iter().zip(&modes) {
+                self.constraint_modes.subcols_mut(block.start, block.len()).copy_from(modes);
+                self.made_of[block.clone()].iter_mut().zip(made_of).for_each(|(sum, more)| *sum += more);
+            }
+            let of_modes = together.par_iter().zip(&modes);
+            let matrices = of_modes.map(|(block, (modes, _))| self.of_modes(stiffness_ib, block, modes));
+            for (block, [k, m]) in together.iter().zip(matrices.collect::<Vec<_>>()) {
+                if self.interior.holds_means() {
+                    add_mirrored(&mut self.stiffness, block.start, &k);
+                } else {
+                    add_block(self.stiffness.subcols_mut(block.start, block.len()), k.as_ref());
                 }
-                pulled += stiff;
+                add_mirrored(&mut self.mass, block.start, &m);
             }
-            pulled *= faer::Scale(-1.0);
-            let mut modes = self.interior.solve(pulled)?;
-            if let Some(lift) = &lift {
-                modes += lift;
-            }
-            self.constraint_modes.subcols_mut(first, width).copy_from(&modes);
-            let mut k = transpose_times_dense(stiffness_ib, &modes);
-            // m_bb is symmetric, as k_bb: rows above the diagonal block stand for the columns beside it
-            let known = self.constraint_modes.subcols(0, first + width);
-            if lift.is_some() {
-                // the interior is in equilibrium but for what holds the means
-                let mut holding = self.interior.stiffness_times(&modes);
-                add_columns(&mut holding, stiffness_ib, first);
-                k = known.transpose() * &holding + k.subrows(0, first + width);
-                add_mirrored(&mut self.stiffness, first, &k);
-            } else {
-                add_block(self.stiffness.subcols_mut(first, width), k.as_ref());
-            }
-            let mut follow = self.interior.mass_times(&modes);
-            add_columns(&mut follow, &self.mass_ib, first);
-            let mut m = known.transpose() * &follow;
-            m += transpose_times_dense(&self.mass_ib, &modes).subrows(0, first + width);
-            add_mirrored(&mut self.mass, first, &m);
         }
         self.stiffness = symmetric(&self.stiffness);
         self.mass = symmetric(&self.mass);
         self.drop_round_off();
         Ok(())
+    }
+
+    /// Constraint modes of some interface coordinates [interior x block], and what their lift adds to [`made_of`](Self::made_of).
+    fn modes(
+        &self,
+        stiffness_ib: &SparseMatrix,
+        block: &Range<usize>,
+    ) -> Result<(DenseMatrix, Vec<f64>), ReductionError> {
+        let mut pulled = columns_of(stiffness_ib, block.start, block.len());
+        let lift = self.interior.lift(block.start, block.len());
+        let mut made_of = vec![0.0; block.len()];
+        if let Some(lift) = &lift {
+            let stiff = self.interior.stiffness_times(lift);
+            for (column, made_of) in made_of.iter_mut().enumerate() {
+                let parts = (0..lift.nrows())
+                    .map(|row| lift[(row, column)] * (2.0 * pulled[(row, column)] + stiff[(row, column)]));
+                *made_of = parts.sum();
+            }
+            pulled += stiff;
+        }
+        pulled *= faer::Scale(-1.0);
+        let mut modes = self.interior.solve(pulled)?;
+        if let Some(lift) = &lift {
+            modes += lift;
+        }
+        Ok((modes, made_of))
+    }
+
+    /// What constraint modes add to k_bb and m_bb. Both are symmetric: of m_bb, and of k_bb where means are held, rows above the
+    /// diagonal block stand for the columns beside it.
+    fn of_modes(&self, stiffness_ib: &SparseMatrix, block: &Range<usize>, modes: &DenseMatrix) -> [DenseMatrix; 2] {
+        let known = self.constraint_modes.subcols(0, block.end).transpose();
+        let mut k = transpose_times_dense(stiffness_ib, modes);
+        if self.interior.holds_means() {
+            // the interior is in equilibrium but for what holds the means
+            let mut holding = self.interior.stiffness_times(modes);
+            add_columns(&mut holding, stiffness_ib, block.start);
+            k = times(known, holding.as_ref()) + k.subrows(0, block.end);
+        }
+        let mut follow = self.interior.mass_times(modes);
+        add_columns(&mut follow, &self.mass_ib, block.start);
+        let m = times(known, follow.as_ref()) + transpose_times_dense(&self.mass_ib, modes).subrows(0, block.end);
+        [k, m]
     }
 
     /// Makes rows and columns of k_bb zero whose diagonal is round-off: k_bb is semidefinite, so that `k_ij^2 <= k_ii k_jj`.
@@ -191,13 +220,14 @@ impl Substructure {
 
     /// `A U`, the inertia of the interior that follows interface motions `U` [interface x k].
     pub(crate) fn follow(&self, u: &DenseMatrix) -> DenseMatrix {
-        let interior = &self.constraint_modes * u;
+        let interior = times(self.constraint_modes.as_ref(), u.as_ref());
         self.interior.mass_times(&interior) + sparse_times_dense(&self.mass_ib, u)
     }
 
     /// `A^T X` for `X` [interior x k].
     pub(crate) fn follow_transposed(&self, x: &DenseMatrix) -> DenseMatrix {
-        self.constraint_modes.transpose() * self.interior.mass_times(x) + transpose_times_dense(&self.mass_ib, x)
+        times(self.constraint_modes.transpose(), self.interior.mass_times(x).as_ref())
+            + transpose_times_dense(&self.mass_ib, x)
     }
 
     /// Fixed-interface modes: the lowest `count` pairs of `K_ii Phi = M_ii Phi Lambda`.

@@ -130,7 +130,7 @@ impl<'p> Basis<'p> {
 }
 
 /// `A B`. Sums over long columns are added up piece by piece, the same whatever the number of threads.
-pub(super) fn times(a: MatRef<'_, f64>, b: MatRef<'_, f64>) -> DenseMatrix {
+pub(crate) fn times(a: MatRef<'_, f64>, b: MatRef<'_, f64>) -> DenseMatrix {
     let mut product = DenseMatrix::zeros(a.nrows(), b.ncols());
     if a.ncols() <= ROWS {
         tall_times(product.as_mut(), Accum::Replace, a, b, 1.0);

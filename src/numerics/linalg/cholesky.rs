@@ -1,9 +1,7 @@
 //! Sparse Cholesky factorisation `P A P^T = L L^T` (multifrontal, nested dissection).
 
 use super::factor::LARGEST_CONTRACTION;
-use super::{
-    DenseMatrix, Factor, FactorMemory, Followers, Kind, LinalgError, Ordering, Plan, SparseMatrix, SymmetricMatrix,
-};
+use super::{DenseMatrix, Factor, FactorMemory, Kind, LinalgError, Ordering, Plan, SparseMatrix, SymmetricMatrix};
 use std::sync::Arc;
 
 /// Factor of a symmetric positive definite sparse matrix in double precision; serves any number of right-hand sides.
@@ -20,26 +18,24 @@ impl SparseCholesky {
     /// [`LinalgError::NotPositiveDefinite`] with the row of `a` at which it stopped, [`LinalgError::IllConditioned`] for a
     /// matrix of which round-off leaves not one digit to solve with, or [`LinalgError::Factorisation`].
     pub fn new(a: &SparseMatrix) -> Result<Self, LinalgError> {
-        Self::with_followers(a, None)
-    }
-
-    /// The same of a matrix with unknowns that follow its own.
-    ///
-    /// # Errors
-    /// As [`SparseCholesky::new`].
-    pub(crate) fn with_followers(a: &SparseMatrix, followers: Option<&Followers>) -> Result<Self, LinalgError> {
         let (expected, found) = (a.rows(), a.cols());
         if found != expected || !a.is_csc() {
             let what = "matrix to factorise (square, compressed columns)";
             return Err(LinalgError::Shape { what, expected, found });
         }
-        let ordering = Ordering::of(a)?;
-        let mut permuted = SymmetricMatrix::permuted(a, &ordering);
-        permuted.followers = followers.map(|followers| followers.permuted(&ordering));
-        let symbolic = Arc::new(Plan::of(&permuted)?);
+        let ordering = Arc::new(Ordering::of(a)?);
+        Self::of_permuted(&SymmetricMatrix::permuted(a, &ordering), ordering)
+    }
+
+    /// Factorises a matrix that is in this order already.
+    ///
+    /// # Errors
+    /// As [`SparseCholesky::new`].
+    pub(super) fn of_permuted(permuted: &SymmetricMatrix, ordering: Arc<Ordering>) -> Result<Self, LinalgError> {
+        let symbolic = Arc::new(Plan::of(permuted)?);
         let row = |place: usize| ordering.old.get(place).map_or(0, |&row| row as usize);
         let memory = FactorMemory::default();
-        let factor = Factor::unjudged(&symbolic, &permuted, Kind::Definite, true, memory);
+        let factor = Factor::unjudged(&symbolic, permuted, Kind::Definite, true, memory);
         let factor = factor.map_err(|error| match error {
             LinalgError::NotPositiveDefinite { order, pivot } => {
                 LinalgError::NotPositiveDefinite { order, pivot: row(pivot) }
@@ -48,13 +44,13 @@ impl SparseCholesky {
         })?;
         if factor.contraction > LARGEST_CONTRACTION {
             return Err(LinalgError::IllConditioned {
-                order: a.rows(),
+                order: permuted.order(),
                 row: row(factor.weakest),
                 contraction: factor.contraction,
                 limit: LARGEST_CONTRACTION,
             });
         }
-        Ok(Self { factor: Arc::new(factor), ordering: Arc::new(ordering) })
+        Ok(Self { factor: Arc::new(factor), ordering })
     }
 
     /// Number of rows of the factorised matrix.
@@ -74,9 +70,9 @@ impl SparseCholesky {
         place.map_or(0, |&row| row as usize)
     }
 
-    /// Order and factor, for an eigenvalue problem with the same matrix.
-    pub(super) fn shared(&self) -> (Arc<Ordering>, Arc<Factor>) {
-        (Arc::clone(&self.ordering), Arc::clone(&self.factor))
+    /// The factor, for an eigenvalue problem with the same matrix.
+    pub(super) fn factor(&self) -> Arc<Factor> {
+        Arc::clone(&self.factor)
     }
 
     /// Solves `A x = b` for one right-hand side of length n, in place.

@@ -50,7 +50,7 @@ impl Followers {
         let permuted = |a: &SparseMatrix| {
             let mut rows = TripletBuilder::new(a.rows(), a.cols());
             for (column, entries) in a.outer_iterator().enumerate() {
-                entries.iter().for_each(|(row, &value)| rows.add(ordering.new[row] as usize, column, value));
+                entries.iter().for_each(|(row, &value)| rows.add(ordering.place(row), column, value));
             }
             rows.build()
         };

@@ -55,8 +55,8 @@ fn sparse(a: &DenseMatrix) -> SparseMatrix {
 fn problem(sample: &Sample) -> (SparseCholesky, EigenProblem) {
     let [k, m] = &sample.sparse;
     let [of_k, of_m] = &sample.followers;
-    let factor = SparseCholesky::with_followers(k, Some(of_k)).expect("definite");
-    let problem = EigenProblem::with_factor([k, m], Some([of_k, of_m]), &factor).expect("same order");
+    let ordering = Ordering::of(k).expect("an order");
+    let (problem, factor) = EigenProblem::factorised([k, m], ordering, Some([of_k, of_m])).expect("definite");
     (factor, problem)
 }
 

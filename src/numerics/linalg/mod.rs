@@ -41,6 +41,7 @@ mod symmetric;
 mod trapezoid;
 mod tree;
 
+pub(crate) use basis::times;
 pub use cholesky::SparseCholesky;
 pub(crate) use dense::symmetric_eigen;
 pub use dense::{DenseCholesky, GeneralSpectrum, SymmetricSpectrum, general_spectrum, symmetric_generalised_eigen};

@@ -96,27 +96,28 @@ impl Ordering {
     /// # Errors
     /// [`LinalgError::Factorisation`] for a matrix with more than 2^31 entries or when METIS gives up.
     pub(crate) fn of_part(a: Pattern<'_>, kept: &[usize]) -> Result<Self, LinalgError> {
-        let order = a.order();
-        let failed = |reason| LinalgError::Factorisation { order, reason };
         let runs = Runs::of(a, kept);
-        let graph = runs.graph(a).ok_or_else(|| failed("more than 2^31 entries"))?;
-        let dissected = nested_dissection(&graph).ok_or_else(|| failed("METIS found no order"))?;
-        let mut place = vec![0; dissected.len()];
-        for (new, &node) in dissected.iter().enumerate() {
-            place[node] = new;
-        }
-        let parents = elimination_tree(&graph, &dissected, &place);
-        let old: Vec<u32> = postorder(&parents)
-            .into_iter()
-            .map(|place| dissected[place])
-            .flat_map(|node| runs.members(node).iter().map(|&unknown| unknown as u32))
-            .collect();
-        let mut new = vec![ABSENT; order];
-        for (place, &unknown) in old.iter().enumerate() {
-            new[unknown as usize] = place as u32;
-        }
-        let kept = kept.iter().map(|&unknown| unknown as u32).collect();
-        Ok(Self { old, new, kept })
+        let graph = runs.graph(a)?;
+        let failed = LinalgError::Factorisation { order: a.order(), reason: "METIS found no order" };
+        Ok(runs.arranged(a.order(), &graph, &nested_dissection(&graph).ok_or(failed)?))
+    }
+
+    /// Order of the rows and columns `kept` (ascending) of a symmetric matrix as they come in this order of more of them: what
+    /// they fill is among what all would.
+    ///
+    /// # Errors
+    /// [`LinalgError::Factorisation`] for a matrix with more than 2^31 entries.
+    pub(crate) fn restricted(&self, a: Pattern<'_>, kept: &[usize]) -> Result<Self, LinalgError> {
+        let runs = Runs::of(a, kept);
+        let graph = runs.graph(a)?;
+        let mut in_order: Vec<usize> = (0..graph.weights.len()).collect();
+        in_order.sort_by_key(|&run| self.new[runs.members(run)[0]]);
+        Ok(runs.arranged(a.order(), &graph, &in_order))
+    }
+
+    /// Place of one of the unknowns that are ordered, in their own order.
+    pub(super) fn place(&self, kept: usize) -> usize {
+        self.new[self.kept[kept] as usize] as usize
     }
 
     /// The rows of `x` (those kept, ascending) in this order.
@@ -160,8 +161,12 @@ impl<'k> Runs<'k> {
         &self.kept[self.firsts[run]..self.firsts[run + 1]]
     }
 
-    /// Their graph; `None` if it is too large for METIS's integers.
-    fn graph(&self, a: Pattern<'_>) -> Option<Graph> {
+    /// Their graph.
+    ///
+    /// # Errors
+    /// [`LinalgError::Factorisation`] if it is too large for METIS's integers.
+    fn graph(&self, a: Pattern<'_>) -> Result<Graph, LinalgError> {
+        let failed = |_| LinalgError::Factorisation { order: a.order(), reason: "more than 2^31 entries" };
         let runs = self.firsts.len() - 1;
         let mut run_of = vec![NONE; a.order()];
         for run in 0..runs {
@@ -176,16 +181,36 @@ impl<'k> Runs<'k> {
                 // rows ascend, so do their runs
                 let other = run_of[row];
                 if other != NONE && other != last && other != run {
-                    graph.neighbours.push(i32::try_from(other).ok()?);
+                    graph.neighbours.push(i32::try_from(other).map_err(failed)?);
                 }
                 if other != NONE {
                     last = other;
                 }
             }
-            graph.starts.push(i32::try_from(graph.neighbours.len()).ok()?);
-            graph.weights.push(i32::try_from(self.members(run).len()).ok()?);
+            graph.starts.push(i32::try_from(graph.neighbours.len()).map_err(failed)?);
+            graph.weights.push(i32::try_from(self.members(run).len()).map_err(failed)?);
         }
-        Some(graph)
+        Ok(graph)
+    }
+
+    /// The unknowns in the order of these runs, but each subtree of the elimination behind the other; `order` is that of the matrix.
+    fn arranged(&self, order: usize, graph: &Graph, dissected: &[usize]) -> Ordering {
+        let mut place = vec![0; dissected.len()];
+        for (new, &node) in dissected.iter().enumerate() {
+            place[node] = new;
+        }
+        let parents = elimination_tree(graph, dissected, &place);
+        let old: Vec<u32> = postorder(&parents)
+            .into_iter()
+            .map(|place| dissected[place])
+            .flat_map(|node| self.members(node).iter().map(|&unknown| unknown as u32))
+            .collect();
+        let mut new = vec![ABSENT; order];
+        for (place, &unknown) in old.iter().enumerate() {
+            new[unknown as usize] = place as u32;
+        }
+        let kept = self.kept.iter().map(|&unknown| unknown as u32).collect();
+        Ordering { old, new, kept }
     }
 }
 

@@ -39,28 +39,21 @@ impl ReducedInterface {
         self.rises.iter().copied().fold(0.0, f64::max)
     }
 
-    /// The interface on as many modes as the case asks for, with the estimate of both reductions; `None` if it asks for
-    /// none. `estimate` is that of the whole interface.
+    /// A reduction of the interface onto some of its modes, with the estimate of both reductions; `estimate` is that of the whole
+    /// interface.
     ///
     /// # Errors
-    /// [`ComputeError::Reduction`] for too few modes, and of the dense eigenvalue solver.
+    /// [`ComputeError::Reduction`] of the dense eigenvalue solver.
     fn of(
-        case: &Case,
+        reduction: InterfaceReduction,
         stage: &CondensedHousing,
         modes: &CharacteristicModes,
         estimate: &ErrorEstimate,
-    ) -> Result<Option<(Self, ErrorEstimate)>, ComputeError> {
-        let size = match case.condense.interface_modes {
-            InterfaceModes::None => return Ok(None),
-            InterfaceModes::Count(count) => InterfaceSize::Count(count),
-            InterfaceModes::UpToHz(hz) => InterfaceSize::UpTo(hz),
-        };
-        let reduction = InterfaceReduction::new(&stage.condensed, modes, size)?;
+    ) -> Result<(Self, ErrorEstimate), ComputeError> {
         let attached = stage.boundary.attached();
         let (estimate, rises) = estimate.raised(&stage.condensed.basis, &reduction.coupled_values(attached)?);
         let lost = modes.lost_flexibility(reduction.kept());
-        let reduced = Self { reduction, rises, lost };
-        Ok(Some((reduced, estimate)))
+        Ok((Self { reduction, rises, lost }, estimate))
     }
 }
 
@@ -128,25 +121,39 @@ pub fn compute_condense(
 ) -> Result<CondenseResult, ComputeError> {
     // a case with neither tie nor other interface was refused before
     let stage = CondensedHousing::build(case, watch)?.ok_or(ComputeError::NothingToCondense)?;
-    watch.stage("estimate");
+    watch.stage("check");
     let band_hz = stage.choice.band_hz;
     let CraigBampton { substructure, basis, .. } = &stage.condensed;
-    let mut estimate = ErrorEstimate::of(substructure, basis, stage.boundary.attached(), band_hz)?;
     let matrices = stage.matrices();
-    let (mut modes, mut interface) = (None, None);
-    if comparison == Comparison::Full || case.condense.interface_modes != InterfaceModes::None {
-        watch.stage("interface");
-        let all = characteristic_modes(&stage, &matrices)?;
-        if let Some((reduced, of_both)) = ReducedInterface::of(case, &stage, &all, &estimate)? {
-            (interface, estimate) = (Some(reduced), of_both);
-        }
-        modes = Some(all);
+    let size = match case.condense.interface_modes {
+        InterfaceModes::None => None,
+        InterfaceModes::Count(count) => Some(InterfaceSize::Count(count)),
+        InterfaceModes::UpToHz(hz) => Some(InterfaceSize::UpTo(hz)),
+    };
+    let checked = || -> Result<_, ComputeError> {
+        let modes = match comparison == Comparison::Full || size.is_some() {
+            true => Some(characteristic_modes(&stage, &matrices)?),
+            false => None,
+        };
+        let sized = modes.as_ref().zip(size);
+        let reduction =
+            sized.map(|(modes, size)| InterfaceReduction::new(&stage.condensed, modes, size)).transpose()?;
+        let rigid = stage.rigid_motions();
+        let mut checks = check_craig_bampton(&stage.condensed, reduction.as_ref(), &matrices, &rigid, band_hz)?;
+        name_mechanisms(&mut checks, &stage.housing, &stage.boundary)?;
+        Ok((modes, reduction, checks))
+    };
+    let AssembledHousing { mesh, model, .. } = &stage.housing;
+    let (estimate, (checked, doubts)) = rayon::join(
+        || ErrorEstimate::of(substructure, basis, stage.boundary.attached(), band_hz),
+        || rayon::join(checked, || doubts(case, Some((mesh, model)), None)),
+    );
+    let (mut estimate, (modes, reduction, mut checks), doubts) = (estimate?, checked?, doubts?);
+    let mut interface = None;
+    if let Some((reduction, modes)) = reduction.zip(modes.as_ref()) {
+        let (reduced, of_both) = ReducedInterface::of(reduction, &stage, modes, &estimate)?;
+        (interface, estimate) = (Some(reduced), of_both);
     }
-    watch.stage("check");
-    let rigid = stage.rigid_motions();
-    let reduction = interface.as_ref().map(|interface| &interface.reduction);
-    let mut checks = check_craig_bampton(&stage.condensed, reduction, &matrices, &rigid, band_hz)?;
-    name_mechanisms(&mut checks, &stage.housing, &stage.boundary)?;
     checks.push(estimated_error(&estimate, case.target()));
     let (mut full, mut price, mut bores) = (None, None, None);
     if comparison == Comparison::Full {
@@ -177,17 +184,7 @@ pub fn compute_condense(
         }
     }
     drop(matrices);
-    let AssembledHousing { mesh, model, .. } = &stage.housing;
-    Ok(CondenseResult {
-        doubts: doubts(case, Some((mesh, model)), None)?,
-        stage,
-        interface,
-        estimate,
-        checks,
-        full,
-        tie_price: price,
-        bore_price: bores,
-    })
+    Ok(CondenseResult { doubts, stage, interface, estimate, checks, full, tie_price: price, bore_price: bores })
 }
 
 fn estimated_error(estimate: &ErrorEstimate, target: f64) -> Check {

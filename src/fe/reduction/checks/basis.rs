@@ -6,7 +6,7 @@ use super::super::parts::rows_of;
 use super::matrices::{check_matrices, largest, pairs};
 use super::{Check, CraigBampton, InterfaceReduction, ReductionError, RigidMotions};
 use crate::fe::assembly::SystemMatrices;
-use crate::numerics::linalg::{DenseMatrix, SparseMatrix, sparse_times_dense, submatrix, transpose_times_dense};
+use crate::numerics::linalg::{DenseMatrix, SparseMatrix, sparse_times_dense, submatrix, times, transpose_times_dense};
 use std::f64::consts::TAU;
 
 /// Equations solved through a factor in double precision: its contraction is below 1e-8 for a matrix worth solving
@@ -26,8 +26,8 @@ pub(super) fn checks(condensed: &CraigBampton, matrices: &SystemMatrices, band_h
     let substructure = &condensed.substructure;
     let (q, values) = (&condensed.basis.vectors, condensed.basis.values());
     let (moved, stiff) = (substructure.interior.mass_times(q), substructure.interior.stiffness_times(q));
-    let gram = q.transpose() * &moved;
-    let energy = q.transpose() * &stiff;
+    let gram = times(q.transpose(), moved.as_ref());
+    let energy = times(q.transpose(), stiff.as_ref());
     let pairs = || pairs(q.ncols());
     let unit = |row: usize, column: usize| f64::from(u8::from(row == column));
     let coupling = coupling(condensed, matrices);
@@ -88,7 +88,7 @@ fn coupling(condensed: &CraigBampton, matrices: &SystemMatrices) -> f64 {
     }
     let k_ib = submatrix(&matrices.stiffness, &partition.interior, &partition.driven);
     let stiff = substructure.interior.stiffness_times(q);
-    let product = stiff.transpose() * &substructure.constraint_modes
+    let product = times(stiff.transpose(), substructure.constraint_modes.as_ref())
         + transpose_times_dense(&partition.tie, &transpose_times_dense(&k_ib, q)).transpose();
     // k_bb of a free body on one node is round-off of what it was summed from
     let typical = substructure.made_of.iter().copied().fold(f64::MIN_POSITIVE, f64::max);
@@ -147,9 +147,12 @@ pub(crate) fn check_craig_bampton(
 ) -> Result<Vec<Check>, ReductionError> {
     let element = reduction.map_or(&condensed.superelement, |reduced| &reduced.superelement);
     let made_of = reduction.is_none().then_some(&*condensed.substructure.made_of);
-    let mut all = check_matrices(element, made_of)?;
-    let of_basis = checks(condensed, matrices, band_hz).into_iter();
-    all.extend(of_basis.filter(|check| reduction.is_none() || check.name != STATIC_INTERFACE));
-    all.extend(rigid.checks(condensed, reduction, matrices)?);
+    let (of_matrices, (of_basis, of_rigid)) = rayon::join(
+        || check_matrices(element, made_of),
+        || rayon::join(|| checks(condensed, matrices, band_hz), || rigid.checks(condensed, reduction, matrices)),
+    );
+    let mut all = of_matrices?;
+    all.extend(of_basis.into_iter().filter(|check| reduction.is_none() || check.name != STATIC_INTERFACE));
+    all.extend(of_rigid?);
     Ok(all)
 }

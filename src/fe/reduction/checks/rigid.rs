@@ -4,7 +4,7 @@ use super::super::parts::symmetric;
 use super::matrices::{largest, pairs};
 use super::{Check, CraigBampton, InterfaceReduction, ReductionError, Superelement};
 use crate::fe::assembly::SystemMatrices;
-use crate::numerics::linalg::{DenseMatrix, acting_generalised_eigen, sparse_times_dense, symmetric_eigen};
+use crate::numerics::linalg::{DenseMatrix, acting_generalised_eigen, sparse_times_dense, symmetric_eigen, times};
 
 /// Energy of a motion that the matrices let pass, relative to the sum of the magnitudes of its terms: round-off of a sum
 /// of many terms.
@@ -149,7 +149,7 @@ impl RigidMotions {
         }
         let motions = condensed.interior_of(&self.housing);
         let moved = substructure.interior.mass_times(&motions);
-        let factors = condensed.basis.vectors.transpose() * &moved;
+        let factors = times(condensed.basis.vectors.transpose(), moved.as_ref());
         let shares: Vec<f64> = (0..motions.ncols())
             .map(|motion| {
                 let kept: f64 = (0..factors.nrows()).map(|q| factors[(q, motion)].powi(2)).sum();

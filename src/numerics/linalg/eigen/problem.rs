@@ -77,34 +77,32 @@ impl EigenProblem {
         })
     }
 
-    /// The problem of a stiffness that is factorised already: its order and its factor are used again. `followers` are what
-    /// unknowns that follow those of K and M add to each; the factor knows those of K.
+    /// The problem over the rows and columns of an order, and the factor of K, which the problem shares. `followers` are what unknowns
+    /// that follow those of K and M add to each.
     ///
     /// # Errors
-    /// As [`EigenProblem::new`]; [`LinalgError::Shape`] if the factor is that of another matrix.
-    pub(crate) fn with_factor(
+    /// As [`EigenProblem::new`] and [`SparseCholesky::new`].
+    pub(crate) fn factorised(
         [k, m]: [&SparseMatrix; 2],
+        ordering: Ordering,
         followers: Option<[&Followers; 2]>,
-        factor: &SparseCholesky,
-    ) -> Result<Self, LinalgError> {
-        let (expected, found) = (k.rows(), factor.order());
-        if found != expected {
-            return Err(LinalgError::Shape { what: "factor of the stiffness", expected, found });
-        }
+    ) -> Result<(Self, SparseCholesky), LinalgError> {
         let started = Instant::now();
-        let (ordering, factor) = factor.shared();
-        let mut stiffness = SymmetricMatrix::permuted(k, &ordering);
-        let mut mass = SymmetricMatrix::permuted(m, &ordering);
+        let ordering = Arc::new(ordering);
+        let permuted = |which: usize, a: &SparseMatrix| {
+            let followers = followers.map(|both| both[which].permuted(&ordering));
+            SymmetricMatrix { followers, ..SymmetricMatrix::permuted(a, &ordering) }
+        };
+        let (stiffness, mass) = rayon::join(|| permuted(0, k), || permuted(1, m));
+        let order_s = started.elapsed().as_secs_f64();
+        let cholesky = SparseCholesky::of_permuted(&stiffness, Arc::clone(&ordering))?;
+        let factor = cholesky.factor();
         let symbolic = if stiffness.covers(&mass) {
             Arc::clone(&factor.symbolic)
         } else {
             Arc::new(Plan::of(&stiffness.shifted(1.0, &mass))?)
         };
-        if let Some([of_stiffness, of_mass]) = followers {
-            stiffness.followers = Some(of_stiffness.permuted(&ordering));
-            mass.followers = Some(of_mass.permuted(&ordering));
-        }
-        Ok(Self { ordering, stiffness, mass, symbolic, factor: Some(factor), order_s: started.elapsed().as_secs_f64() })
+        Ok((Self { ordering, stiffness, mass, symbolic, factor: Some(factor), order_s }, cholesky))
     }
 
     /// Who factorises, if not our own factor.
