@@ -57,8 +57,12 @@ impl CondensedHousing {
         };
         let asked = case.frf.as_ref().and_then(|frf| frf.band_hz).map_or(0.0, |[_, high]| high);
         // two digits of what is an estimate
-        let highest = format!("{:.1e}", highest_hz(&housing.matrices)).parse().unwrap_or(f64::INFINITY);
-        if asked > highest && choice.band_hz >= asked {
+        let highest = || format!("{:.1e}", highest_hz(&housing.matrices)).parse().unwrap_or(f64::INFINITY);
+        if asked > 0.0
+            && choice.band_hz >= asked
+            && let highest = highest()
+            && asked > highest
+        {
             let limit = "at most what the mesh tells, half the frequency of a node while all others are held";
             let rule = Rule::beyond(asked, limit, highest).with_help("end the band below it, or make the mesh finer");
             return Err(case.broken(&rule.at("frf.band_hz[1]")).into());

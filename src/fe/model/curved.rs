@@ -16,6 +16,9 @@ const CURVED: f64 = 0.2;
 /// Longest edge over height from which on an element is one of a wall, and not of a fillet or a small hole.
 const SLENDER: f64 = 5.0;
 
+/// Distance of the middle of a straight edge from that of its ends, over the longest edge.
+const ROUND_OFF: f64 = 1e-9;
+
 /// Share of a part's volume that is told. In seven parts from CAD with small holes and fillets slender curved elements are up to 8 %.
 const SHARE: f64 = 0.1;
 
@@ -78,7 +81,8 @@ impl HousingModel {
             let [a, b, middle] = [nodes[a], nodes[b], middle].map(|node| self.at(node));
             [offset.max((middle - 0.5 * (a + b)).norm()), longest.max((b - a).norm())]
         });
-        if offset <= 0.0 {
+        // no element that is accepted is as flat as round-off
+        if offset <= ROUND_OFF * longest {
             return 0.0;
         }
         let areas = kind.faces().iter().map(|face| {

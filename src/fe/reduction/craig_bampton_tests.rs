@@ -55,6 +55,24 @@ fn the_mass_of_a_long_interface_is_that_of_its_motions() {
     assert!((&substructure.mass - expected).norm_max() < 1e-14);
 }
 
+/// To the last bit: threads share the blocks of the interface.
+#[test]
+fn a_substructure_does_not_depend_on_the_number_of_threads() {
+    let (rod, partition) = (rod(300), every_third(300));
+    let of = |threads: usize| {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("threads");
+        pool.install(|| Substructure::new(&rod, &partition)).expect("connected")
+    };
+    let one = of(1);
+    // four blocks: two and one at the end, three and one, all at once
+    assert_eq!(one.interface_dof(), 100);
+    for threads in [2, 3, 8] {
+        let found = of(threads);
+        assert!(found.stiffness() == one.stiffness() && found.mass == one.mass, "{threads}");
+        assert!(found.constraint_modes == one.constraint_modes, "{threads}");
+    }
+}
+
 #[test]
 fn frequencies_converge_from_above() {
     let rod = rod(40);

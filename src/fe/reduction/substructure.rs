@@ -102,7 +102,7 @@ impl Substructure {
             made_of: (0..tie.cols()).map(|row| stiffness[(row, row)]).collect(),
             stiffness,
             mass: driven(m),
-            constraint_modes: DenseMatrix::zeros(i.len(), tie.cols()),
+            constraint_modes: DenseMatrix::zeros(0, 0),
             partition: partition.clone(),
             interior,
             mass_ib,
@@ -117,17 +117,24 @@ impl Substructure {
         let blocks: Vec<Range<usize>> =
             (0..order).step_by(BLOCK).map(|first| first..order.min(first + BLOCK)).collect();
         // no more at once than there are threads: each takes the memory of some blocks
+        let mut all = DenseMatrix::zeros(self.partition.interior.len(), order);
         for together in blocks.chunks(rayon::current_num_threads()) {
-            watch.fraction(together[0].start as f64 / order as f64);
-            let modes = together.par_iter().map(|block| self.modes(stiffness_ib, block));
-            let modes: Vec<(DenseMatrix, Vec<f64>)> = modes.collect::<Result<_, _>>()?;
-            for (block, (modes, made_of)) in together.iter().zip(&modes) {
-                self.constraint_modes.subcols_mut(block.start, block.len()).copy_from(modes);
+            let (first, last) = (together[0].start, together[together.len() - 1].end);
+            watch.fraction(first as f64 / order as f64);
+            let to = all.as_mut().subcols_mut(first, last - first).par_col_chunks_mut(BLOCK);
+            let modes = together.par_iter().zip(to).map(|(block, mut to)| {
+                let (modes, made_of) = self.modes(stiffness_ib, block)?;
+                to.copy_from(&modes);
+                Ok((modes, made_of))
+            });
+            let modes: Vec<(DenseMatrix, Vec<f64>)> = modes.collect::<Result<_, ReductionError>>()?;
+            let of_modes = together.par_iter().zip(&modes).map(|(block, (modes, _))| {
+                let known = all.subcols(0, block.end).transpose();
+                self.of_modes(stiffness_ib, block, modes, known)
+            });
+            let matrices: Vec<[DenseMatrix; 2]> = of_modes.collect();
+            for ((block, (_, made_of)), [k, m]) in together.iter().zip(modes).zip(matrices) {
                 self.made_of[block.clone()].iter_mut().zip(made_of).for_each(|(sum, more)| *sum += more);
-            }
-            let of_modes = together.par_iter().zip(&modes);
-            let matrices = of_modes.map(|(block, (modes, _))| self.of_modes(stiffness_ib, block, modes));
-            for (block, [k, m]) in together.iter().zip(matrices.collect::<Vec<_>>()) {
                 if self.interior.holds_means() {
                     add_mirrored(&mut self.stiffness, block.start, &k);
                 } else {
@@ -136,6 +143,7 @@ impl Substructure {
                 add_mirrored(&mut self.mass, block.start, &m);
             }
         }
+        self.constraint_modes = all;
         self.stiffness = symmetric(&self.stiffness);
         self.mass = symmetric(&self.mass);
         self.drop_round_off();
@@ -168,10 +176,15 @@ impl Substructure {
         Ok((modes, made_of))
     }
 
-    /// What constraint modes add to k_bb and m_bb. Both are symmetric: of m_bb, and of k_bb where means are held, rows above the
-    /// diagonal block stand for the columns beside it.
-    fn of_modes(&self, stiffness_ib: &SparseMatrix, block: &Range<usize>, modes: &DenseMatrix) -> [DenseMatrix; 2] {
-        let known = self.constraint_modes.subcols(0, block.end).transpose();
+    /// What constraint modes add to k_bb and m_bb; `known` are those and all before, transposed. Both matrices are symmetric: of m_bb,
+    /// and of k_bb where means are held, rows above the diagonal block stand for the columns beside it.
+    fn of_modes(
+        &self,
+        stiffness_ib: &SparseMatrix,
+        block: &Range<usize>,
+        modes: &DenseMatrix,
+        known: MatRef<'_, f64>,
+    ) -> [DenseMatrix; 2] {
         let mut k = transpose_times_dense(stiffness_ib, modes);
         if self.interior.holds_means() {
             // the interior is in equilibrium but for what holds the means

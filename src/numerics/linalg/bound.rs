@@ -2,6 +2,9 @@
 
 use super::basis::{norms, times};
 use super::{DenseMatrix, EigenPairs, Factor, SymmetricMatrix, SymmetricSpectrum};
+use faer::ColMut;
+use faer::prelude::*;
+use rayon::prelude::*;
 
 /// Relative gap below which eigenvalues belong to one cluster, whose vectors are judged together.
 const CLUSTER: f64 = 1e-3;
@@ -33,18 +36,17 @@ impl EigenPairs {
         let stiff = stiffness.times(x);
         let heavy = mass.times(x);
         let mut steps = stiff.clone();
-        let mut residuals = Vec::with_capacity(count);
-        let mut values = ritz.values.clone();
-        for (mode, place) in values.iter_mut().enumerate().take(count) {
-            let quotient = x.col(mode).transpose() * stiff.col(mode);
-            let value = quotient / (x.col(mode).transpose() * heavy.col(mode));
-            *place = value;
-            for (entry, product) in steps.col_as_slice_mut(mode).iter_mut().zip(heavy.col_as_slice(mode)) {
-                *entry -= value * product;
-            }
-            let scale = stiff.col(mode).norm_l2() + (value - sigma).abs() * heavy.col(mode).norm_l2();
-            residuals.push(steps.col(mode).norm_l2() / scale);
-        }
+        let of_mode = |(mode, mut step): (usize, ColMut<'_, f64>)| -> (f64, f64) {
+            let (x, stiff, heavy) = (x.col(mode), stiff.col(mode), heavy.col(mode));
+            let quotient = x.transpose() * stiff;
+            let value: f64 = quotient / (x.transpose() * heavy);
+            step.rb_mut().iter_mut().zip(heavy.iter()).for_each(|(entry, product)| *entry -= value * product);
+            let scale = stiff.norm_l2() + (value - sigma).abs() * heavy.norm_l2();
+            (value, step.norm_l2() / scale)
+        };
+        let judged = steps.par_col_iter_mut().enumerate().map(of_mode);
+        let (mut values, residuals): (Vec<f64>, Vec<f64>) = judged.unzip();
+        values.extend_from_slice(&ritz.values[count..]);
         let remainders = steps.clone();
         factor.solve(steps.as_mut());
         let inexact = 1.0 / (1.0 - factor.contraction);

@@ -92,7 +92,7 @@ impl<T: Precision> NumericFactor<T> {
 
     /// The same with every entry rounded to another precision.
     pub(super) fn rounded<S: Precision>(&self) -> NumericFactor<S> {
-        let round = |values: &[T]| values.iter().map(|&v| S::rounded(v.exact())).collect();
+        let round = |values: &[T]| values.par_iter().map(|&v| S::rounded(v.exact())).collect();
         NumericFactor {
             values: round(&self.values),
             scale: self.scale.clone(),

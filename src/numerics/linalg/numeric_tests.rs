@@ -1,7 +1,7 @@
 //! Factors of matrices in any order and by any number of threads.
 
 use super::super::dense::pseudo_random;
-use super::super::ordering::Ordering;
+use super::super::ordering::{Ordering, Pattern};
 use super::super::symbolic::analysed;
 use super::super::{DenseMatrix, SparseMatrix, TripletBuilder};
 use super::*;
@@ -147,4 +147,23 @@ fn the_first_column_that_fails_is_named() {
     for threads in [1, 2, 4] {
         assert_eq!(failed(threads), LinalgError::NotPositiveDefinite { order, pivot: first });
     }
+}
+
+/// Part of a matrix in the order of the whole: it fills hardly more than in an order of its own, and supernodes are as wide.
+#[test]
+fn a_part_keeps_the_order_of_the_whole() {
+    let a = cube(12, 3);
+    let pattern = Pattern::of(&a);
+    // without one of the faces
+    let kept: Vec<usize> = (0..a.rows()).filter(|row| row / 3 % 12 > 0).collect();
+    let whole = Ordering::of(&a).expect("an order");
+    let orders = [whole.restricted(pattern, &kept), Ordering::of_part(pattern, &kept)];
+    let [(entries, supernodes), (own_entries, own_supernodes)] = orders.map(|ordering| {
+        let permuted = SymmetricMatrix::permuted(&a, &ordering.expect("an order"));
+        let symbolic = analysed(&permuted).expect("analysed");
+        (symbolic.entries() as f64, symbolic.supernodes() as f64)
+    });
+    // METIS's own luck is as large
+    assert!(entries < 1.15 * own_entries, "{entries} {own_entries}");
+    assert!(supernodes < 1.15 * own_supernodes, "{supernodes} {own_supernodes}");
 }

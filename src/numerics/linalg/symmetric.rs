@@ -187,7 +187,7 @@ impl SymmetricMatrix {
             let column: Vec<f64> = x.col(column).iter().copied().collect();
             self.followers.as_ref().map_or(0.0, |followers| followers.energy_scatter(&column))
         };
-        (0..x.ncols()).map(|column| (scatter(column) + further(column)).sqrt()).collect()
+        (0..x.ncols()).into_par_iter().map(|column| (scatter(column) + further(column)).sqrt()).collect()
     }
 
     fn times_block<const L: usize>(
