@@ -52,7 +52,12 @@ impl CondensedHousing {
         choice: BasisChoice,
         watch: &impl Watch,
     ) -> Result<Option<Self>, ComputeError> {
-        let Some(housing) = AssembledHousing::ordered(case, watch)? else {
+        // a run condenses a housing with rings as it is assembled for modes in full: the same numbers come of it here
+        let housing = match case.has_rings() {
+            true => AssembledHousing::build(case, watch)?,
+            false => AssembledHousing::ordered(case, watch)?,
+        };
+        let Some(housing) = housing else {
             return Ok(None);
         };
         let asked = case.frf.as_ref().and_then(|frf| frf.band_hz).map_or(0.0, |[_, high]| high);

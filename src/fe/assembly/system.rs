@@ -91,8 +91,7 @@ impl SystemMatrices {
                 mass: congruence(&self.mass, rotation),
                 weight: transpose_times_dense(rotation, &self.weight),
                 total_mass: self.total_mass,
-                // a rotation couples unknowns of one node
-                ordering: self.ordering,
+                ordering: None,
             },
         }
     }

@@ -93,18 +93,20 @@ impl Substructure {
             return Err(ReductionError::Refused(what.to_owned()));
         }
         watch.stage("factor");
-        let interior = Interior::new(matrices, partition)?;
-        let stiffness_ib = (&submatrix(k, i, b) * tie).to_csc();
-        let mass_ib = (&submatrix(m, i, b) * tie).to_csc();
         let driven = |a: &SparseMatrix| dense(&congruence(&submatrix(a, b, b), tie));
-        let stiffness = driven(k);
+        let of_interface = || {
+            let [stiffness_ib, mass_ib] = [k, m].map(|a| (&submatrix(a, i, b) * tie).to_csc());
+            ([stiffness_ib, mass_ib], [driven(k), driven(m)], DenseMatrix::zeros(i.len(), tie.cols()))
+        };
+        let (interior, of_interface) = rayon::join(|| Interior::new(matrices, partition), of_interface);
+        let ([stiffness_ib, mass_ib], [stiffness, mass], constraint_modes) = of_interface;
         let mut substructure = Self {
             made_of: (0..tie.cols()).map(|row| stiffness[(row, row)]).collect(),
             stiffness,
-            mass: driven(m),
-            constraint_modes: DenseMatrix::zeros(0, 0),
+            mass,
+            constraint_modes,
             partition: partition.clone(),
-            interior,
+            interior: interior?,
             mass_ib,
         };
         watch.stage("constraint modes");
@@ -117,7 +119,7 @@ impl Substructure {
         let blocks: Vec<Range<usize>> =
             (0..order).step_by(BLOCK).map(|first| first..order.min(first + BLOCK)).collect();
         // no more at once than there are threads: each takes the memory of some blocks
-        let mut all = DenseMatrix::zeros(self.partition.interior.len(), order);
+        let mut all = std::mem::replace(&mut self.constraint_modes, DenseMatrix::zeros(0, 0));
         for together in blocks.chunks(rayon::current_num_threads()) {
             let (first, last) = (together[0].start, together[together.len() - 1].end);
             watch.fraction(first as f64 / order as f64);

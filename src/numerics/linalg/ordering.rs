@@ -141,7 +141,7 @@ impl Ordering {
     }
 }
 
-/// Runs of consecutive unknowns whose columns have the same pattern: the nodes of a mesh.
+/// Runs of consecutive unknowns whose columns have the same pattern among those kept: the nodes of a mesh.
 struct Runs<'k> {
     kept: &'k [usize],
     /// Where each run begins in `kept`, one more than runs.
@@ -150,8 +150,12 @@ struct Runs<'k> {
 
 impl<'k> Runs<'k> {
     fn of(a: Pattern<'_>, kept: &'k [usize]) -> Self {
+        let mut is_kept = vec![false; a.order()];
+        kept.iter().for_each(|&unknown| is_kept[unknown] = true);
         let column = |place: usize| a.column(kept[place]);
-        let begins = |&place: &usize| place == 0 || column(place) != column(place - 1);
+        let among = |place: usize| column(place).iter().filter(|&&row| is_kept[row]);
+        let differ = |place: usize| column(place) != column(place - 1) && among(place).ne(among(place - 1));
+        let begins = |&place: &usize| place == 0 || differ(place);
         let mut firsts: Vec<usize> = (0..kept.len()).filter(begins).collect();
         firsts.push(kept.len());
         Self { kept, firsts }
