@@ -40,7 +40,7 @@ impl Run {
         let RunResult { machine, bearing_model, choice, horizon, simulation, .. } = result;
         let RunResult { windows, scalograms, not_analysed, warnings, .. } = result;
         let Simulation { method, schedule, modes, residual, statistics, start_s, simulated_s, .. } = simulation;
-        let Simulation { stepping_s, record, energy, end, .. } = simulation;
+        let Simulation { stepping_s, before_s, record, energy, end, .. } = simulation;
         let record = Held(Py::new(py, Record::of(py, record))?);
         let simulation = Simulation {
             method,
@@ -51,6 +51,7 @@ impl Run {
             start_s,
             simulated_s,
             stepping_s,
+            before_s,
             record,
             energy,
             end,

@@ -167,7 +167,7 @@ fn summary<R: Recording>(case: &Case, result: &RunResult<R>, wall_s: f64) -> Str
         "{} s simulated in {} s, with model, choice and report {} s: {} steps of {} ({}), {}, {} s of computing per simulated second",
         significant(simulation.simulated_s, 4),
         significant(simulation.stepping_s, 3),
-        significant(wall_s, 3),
+        significant(simulation.before_s + wall_s, 3),
         simulation.statistics.steps,
         quantity(simulation.step_s(), "s"),
         simulation.method.name(),

@@ -36,8 +36,8 @@ pub(crate) const MODELLED: f64 = 3.0;
 /// `examples/housings` by 0.24 and 0.007 for 2.3 and 7.9 times (0.26, 0.0065). Preloaded bearings err by less.
 const LEFT_OUT: f64 = 3.2;
 
-/// Part of the target that this may be in a run whose vectors are chosen, and the most numbers that they have, ten seconds' work: 300
-/// vectors of 13 000 degrees of freedom.
+/// Part of the target that this may be in a run whose vectors are chosen, and the most numbers that its fixed-interface modes have, ten
+/// seconds' work: 300 of 13 000 degrees of freedom.
 pub(crate) const LEFT_OUT_SHARE: f64 = 0.5;
 pub(crate) const MOST_NUMBERS: usize = 4_000_000;
 

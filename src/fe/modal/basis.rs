@@ -13,6 +13,9 @@ const ZERO: f64 = 4.0;
 /// four digits of their own, and mix with the ones below by a ten-thousandth at most.
 const NEAR_ZERO: f64 = 1e4;
 
+/// Part of a frequency, of a rigid mode of the first elastic one's, above which an error bound leaves the mode unknown.
+const UNKNOWN: f64 = 0.1;
+
 /// Which modes.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 #[serde(rename_all = "snake_case")]
@@ -206,6 +209,18 @@ impl ModalBasis {
             })
             .collect();
         self.frequencies_hz = self.eigenvalues.iter().map(|&value| hz(value)).collect();
+    }
+
+    /// Number of modes of which nothing is known, as their bounds are of the order of the frequencies: round-off of the stiffness hides
+    /// them. Without an elastic mode beside them those are all rigid ones, if there are more than the `free` motions of the model.
+    pub(crate) fn unknown(&self, free: Option<usize>) -> usize {
+        let first = self.frequencies_hz.get(self.rigid_modes).copied();
+        let is_unknown = |(mode, (frequency, bound)): (usize, (&f64, &f64))| match first {
+            Some(first) => *bound > UNKNOWN * if mode < self.rigid_modes { first } else { *frequency },
+            None => free.is_some_and(|free| self.rigid_modes > free),
+        };
+        let modes = self.frequencies_hz.iter().zip(&self.error_bounds_hz).enumerate();
+        modes.filter(|mode| is_unknown(*mode)).count()
     }
 
     /// Computes the modes again that the matrices cannot tell from rigid ones, from strain energies that were summed

@@ -66,6 +66,22 @@ fn iterated_rigid_modes_are_recognised() {
     }
 }
 
+/// A rigid mode is known beside the first elastic one, an elastic one by itself, and rigid ones alone by what the model leaves free.
+#[test]
+fn modes_that_round_off_hides_are_unknown() {
+    let cells = Cells::new(3, [0.03, 0.02, 0.01]).block("b", 0, [0; 3], [6, 4, 3]);
+    let model = HousingModel::new(&cells.mesh, description(&cells, &["b"], 1.0)).expect("a model");
+    let matrices = SystemMatrices::assemble(&model).expect("matrices");
+    let rigid = sharp_modes(&model, &matrices, 6);
+    assert_eq!([Some(6), None, Some(5)].map(|free| rigid.unknown(free)), [0, 0, 6]);
+    let mut basis = sharp_modes(&model, &matrices, 8);
+    assert_eq!(basis.unknown(Some(6)), 0);
+    for (mode, unknown) in [(7, 1), (2, 2)] {
+        basis.error_bounds_hz[mode] = 0.11 * basis.frequencies_hz[mode.max(6)];
+        assert_eq!(basis.unknown(Some(6)), unknown);
+    }
+}
+
 /// Turned modes are modes: normalised, and with the energy that their eigenvalue says.
 #[test]
 fn sharpened_modes_are_normal_modes() {

@@ -43,7 +43,7 @@ impl FullModes {
         };
         drop((stiffness, mass));
         if let Some(choice) = problem.factor_choice() {
-            watch.note(&format!("factorised by {}: {}", choice.by, choice.why));
+            watch.note(&choice.sentence());
         }
         watch.stage("eigen");
         let told = |part| watch.fraction(part);

@@ -28,8 +28,8 @@ use crate::fe::assembly::SystemMatrices;
 use crate::fe::model::HousingPartition;
 use crate::numerics::Told;
 use crate::numerics::linalg::{
-    DenseMatrix, EigenPairs, EigenProblem, Followers, LinalgError, Ordering, Pattern, SparseCholesky, SparseMatrix,
-    TripletBuilder, sparse_times_dense, submatrix, symmetric_eigen, transpose_times_dense,
+    DenseMatrix, EigenPairs, EigenProblem, FactorChoice, Followers, LinalgError, Ordering, Pattern, SparseCholesky,
+    SparseMatrix, TripletBuilder, sparse_times_dense, submatrix, symmetric_eigen, transpose_times_dense,
 };
 use faer::prelude::*;
 use std::sync::Arc;
@@ -108,6 +108,11 @@ impl Interior {
             return Err(soft(factor.weakest_row(), factor.contraction()));
         }
         Ok(Self { interface: partition.tie.cols(), factor, problem, held })
+    }
+
+    /// Who factorises, if not our own factor.
+    pub(super) fn factor_choice(&self) -> Option<FactorChoice> {
+        self.problem.factor_choice()
     }
 
     /// Whether the interface holds means of the interior.

@@ -109,6 +109,9 @@ impl Substructure {
             interior: interior?,
             mass_ib,
         };
+        if let Some(choice) = substructure.interior.factor_choice() {
+            watch.note(&choice.sentence());
+        }
         watch.stage("constraint modes");
         substructure.condense_statically(&stiffness_ib, watch)?;
         Ok(substructure)

@@ -32,10 +32,10 @@ impl SparseCholesky {
     /// # Errors
     /// As [`SparseCholesky::new`].
     pub(super) fn of_permuted(permuted: &SymmetricMatrix, ordering: Arc<Ordering>) -> Result<Self, LinalgError> {
-        let symbolic = Arc::new(Plan::of(permuted)?);
+        let plan = Arc::new(Plan::of(permuted)?);
         let row = |place: usize| ordering.old.get(place).map_or(0, |&row| row as usize);
         let memory = FactorMemory::default();
-        let factor = Factor::unjudged(&symbolic, permuted, Kind::Definite, true, memory);
+        let factor = Factor::unjudged(&plan, permuted, Kind::Definite, true, memory);
         let factor = factor.map_err(|error| match error {
             LinalgError::NotPositiveDefinite { order, pivot } => {
                 LinalgError::NotPositiveDefinite { order, pivot: row(pivot) }

@@ -89,7 +89,7 @@ impl Numbers {
 #[derive(Debug)]
 pub(super) struct Factor {
     /// Where its entries are.
-    pub symbolic: Arc<Plan>,
+    pub plan: Arc<Plan>,
     numbers: Numbers,
     /// What followers add to solutions and counts.
     correction: Option<Correction>,
@@ -114,16 +114,16 @@ impl Factor {
     /// [`LinalgError::NotPositiveDefinite`], [`LinalgError::Factorisation`], or [`LinalgError::NearlySingular`] if
     /// the factor in double precision does not solve its own system either.
     pub(super) fn new(
-        symbolic: &Arc<Plan>,
+        plan: &Arc<Plan>,
         a: &SymmetricMatrix,
         kind: Kind,
         memory: FactorMemory,
     ) -> Result<Self, LinalgError> {
-        match Self::quick(symbolic, a, kind, memory) {
+        match Self::quick(plan, a, kind, memory) {
             Err(LinalgError::NearlySingular { .. } | LinalgError::NotPositiveDefinite { .. })
-                if symbolic.entries() > SMALL =>
+                if plan.entries() > SMALL =>
             {
-                Self::double(symbolic, a, kind)
+                Self::double(plan, a, kind)
             }
             done => done,
         }
@@ -134,20 +134,20 @@ impl Factor {
     /// # Errors
     /// As [`Factor::new`], already if single precision does not suffice.
     pub(super) fn quick(
-        symbolic: &Arc<Plan>,
+        plan: &Arc<Plan>,
         a: &SymmetricMatrix,
         kind: Kind,
         memory: FactorMemory,
     ) -> Result<Self, LinalgError> {
-        Self::unjudged(symbolic, a, kind, false, memory)?.judged()
+        Self::unjudged(plan, a, kind, false, memory)?.judged()
     }
 
     /// Factorises `a` in double precision.
     ///
     /// # Errors
     /// As [`Factor::new`].
-    pub(super) fn double(symbolic: &Arc<Plan>, a: &SymmetricMatrix, kind: Kind) -> Result<Self, LinalgError> {
-        Self::unjudged(symbolic, a, kind, true, FactorMemory::default())?.judged()
+    pub(super) fn double(plan: &Arc<Plan>, a: &SymmetricMatrix, kind: Kind) -> Result<Self, LinalgError> {
+        Self::unjudged(plan, a, kind, true, FactorMemory::default())?.judged()
     }
 
     /// Factorises `a` in the precision that its size calls for, or in double precision, whatever the quality: for an
@@ -156,13 +156,13 @@ impl Factor {
     /// # Errors
     /// [`LinalgError::Factorisation`], [`LinalgError::NotPositiveDefinite`].
     pub(super) fn unjudged(
-        symbolic: &Arc<Plan>,
+        plan: &Arc<Plan>,
         a: &SymmetricMatrix,
         kind: Kind,
         double: bool,
         memory: FactorMemory,
     ) -> Result<Self, LinalgError> {
-        Ok(Self::measured(symbolic, a, Numbers::new(symbolic, a, kind, double, memory)?))
+        Ok(Self::measured(plan, a, Numbers::new(plan, a, kind, double, memory)?))
     }
 
     /// Whether its entries are in double precision.
@@ -179,8 +179,8 @@ impl Factor {
     /// small, or no longer sharp.
     pub(super) fn lightened(&self, a: &SymmetricMatrix) -> Option<Self> {
         match &self.numbers {
-            Numbers::Double(numbers) if self.symbolic.entries() > SMALL => {
-                let light = Self::measured(&self.symbolic, a, Numbers::Single(numbers.rounded()));
+            Numbers::Double(numbers) if self.plan.entries() > SMALL => {
+                let light = Self::measured(&self.plan, a, Numbers::Single(numbers.rounded()));
                 light.is_sharp().then_some(light)
             }
             _ => None,
@@ -201,13 +201,13 @@ impl Factor {
         self.check()?;
         match self.contraction {
             contraction if contraction <= LARGEST_CONTRACTION => Ok(self),
-            contraction => Err(LinalgError::NearlySingular { order: self.symbolic.order(), contraction }),
+            contraction => Err(LinalgError::NearlySingular { order: self.plan.order(), contraction }),
         }
     }
 
-    pub(super) fn measured(symbolic: &Arc<Plan>, a: &SymmetricMatrix, numbers: Numbers) -> Self {
+    pub(super) fn measured(plan: &Arc<Plan>, a: &SymmetricMatrix, numbers: Numbers) -> Self {
         let mut factor =
-            Self { symbolic: Arc::clone(symbolic), numbers, correction: None, contraction: f64::INFINITY, weakest: 0 };
+            Self { plan: Arc::clone(plan), numbers, correction: None, contraction: f64::INFINITY, weakest: 0 };
         factor.correction = a.followers.as_ref().map(|followers| followers.correction(|b| factor.solve(b)));
         let mut error = pseudo_random(a.order(), PROBES.0, 0);
         for _ in 0..PROBES.1 {
@@ -245,7 +245,7 @@ impl Factor {
 
     /// `F^-1 B` in place for `B` [n x k].
     pub(super) fn solve(&self, mut b: MatMut<'_, f64>) {
-        self.numbers.solve(&self.symbolic, b.as_mut());
+        self.numbers.solve(&self.plan, b.as_mut());
         if let Some(correction) = &self.correction {
             correction.apply(b);
         }
@@ -253,7 +253,7 @@ impl Factor {
 
     /// Number of negative eigenvalues of the matrix.
     pub(super) fn negative(&self) -> usize {
-        let alone = self.numbers.negative(&self.symbolic);
+        let alone = self.numbers.negative(&self.plan);
         self.correction.as_ref().map_or(alone, |correction| correction.negative(alone))
     }
 }
@@ -293,11 +293,11 @@ mod tests {
         let order = 400;
         for below in [0, 1, 7, 200, 399] {
             let sigma = 0.4 * value(below, order) + 0.6 * value(below + 1, order);
-            let (symbolic, a) = chain(order, sigma);
-            let factor = Factor::new(&symbolic, &a, Kind::Indefinite, FactorMemory::default()).expect("regular");
+            let (plan, a) = chain(order, sigma);
+            let factor = Factor::new(&plan, &a, Kind::Indefinite, FactorMemory::default()).expect("regular");
             assert_eq!(factor.negative(), below);
-            let single = NumericFactor::<f32>::new(symbolic.own(), &a, Kind::Indefinite, Vec::new()).expect("regular");
-            let single = Factor::measured(&symbolic, &a, Numbers::Single(single));
+            let single = NumericFactor::<f32>::new(plan.own(), &a, Kind::Indefinite, Vec::new()).expect("regular");
+            let single = Factor::measured(&plan, &a, Numbers::Single(single));
             // single precision cannot tell eigenvalues 6e-5 apart where the largest is 4; it says so
             assert!(single.negative() == below || single.contraction > LARGEST_CONTRACTION);
         }
@@ -308,11 +308,11 @@ mod tests {
     fn a_shift_on_an_eigenvalue_is_noticed() {
         let order = 300;
         let on = value(17, order);
-        let (symbolic, a) = chain(order, on);
-        let result = Factor::new(&symbolic, &a, Kind::Indefinite, FactorMemory::default());
+        let (plan, a) = chain(order, on);
+        let result = Factor::new(&plan, &a, Kind::Indefinite, FactorMemory::default());
         assert!(matches!(result, Err(LinalgError::NearlySingular { .. })), "{result:?}");
-        let (symbolic, a) = chain(order, on * (1.0 + 1e-6));
-        let factor = Factor::new(&symbolic, &a, Kind::Indefinite, FactorMemory::default()).expect("regular");
+        let (plan, a) = chain(order, on * (1.0 + 1e-6));
+        let factor = Factor::new(&plan, &a, Kind::Indefinite, FactorMemory::default()).expect("regular");
         assert_eq!(factor.negative(), 17);
         assert!(factor.contraction < 1e-6, "{:e}", factor.contraction);
     }
@@ -321,9 +321,9 @@ mod tests {
     #[test]
     fn contraction_grows_with_the_condition() {
         for (order, limits) in [(20, [1e-9, 1e-4]), (2000, [1e-6, f64::INFINITY])] {
-            let (symbolic, a) = chain(order, 0.0);
-            let numbers = NumericFactor::<f32>::new(symbolic.own(), &a, Kind::Definite, Vec::new()).expect("definite");
-            let factor = Factor::measured(&symbolic, &a, Numbers::Single(numbers));
+            let (plan, a) = chain(order, 0.0);
+            let numbers = NumericFactor::<f32>::new(plan.own(), &a, Kind::Definite, Vec::new()).expect("definite");
+            let factor = Factor::measured(&plan, &a, Numbers::Single(numbers));
             let found = factor.contraction;
             assert!(found > limits[0] && found < limits[1], "{order} {found:e}");
         }
@@ -333,9 +333,9 @@ mod tests {
     #[test]
     fn a_rounded_factor_solves_to_single_precision() {
         for kind in [Kind::Definite, Kind::Indefinite] {
-            let (symbolic, a) = chain(20, 0.0);
-            let double = NumericFactor::<f64>::new(symbolic.own(), &a, kind, Vec::new()).expect("definite");
-            let rounded = Factor::measured(&symbolic, &a, Numbers::Single(double.rounded()));
+            let (plan, a) = chain(20, 0.0);
+            let double = NumericFactor::<f64>::new(plan.own(), &a, kind, Vec::new()).expect("definite");
+            let rounded = Factor::measured(&plan, &a, Numbers::Single(double.rounded()));
             let found = rounded.contraction;
             assert!(found > 1e-9 && found < 1e-4, "{found:e}");
         }
@@ -343,7 +343,7 @@ mod tests {
 
     #[test]
     fn both_kinds_and_precisions_solve() {
-        let (symbolic, a) = chain(90, 0.0);
+        let (plan, a) = chain(90, 0.0);
         let x = pseudo_random(90, 3, 5);
         let b = a.times(x.as_ref());
         let error = |mut y: DenseMatrix, solve: &dyn Fn(&mut DenseMatrix)| {
@@ -351,11 +351,11 @@ mod tests {
             (y - &x).norm_max()
         };
         for kind in [Kind::Definite, Kind::Indefinite] {
-            let double = NumericFactor::<f64>::new(symbolic.own(), &a, kind, Vec::new()).expect("definite");
+            let double = NumericFactor::<f64>::new(plan.own(), &a, kind, Vec::new()).expect("definite");
             // condition 3300 times the unit round-off, and a factor of ten
-            assert!(error(b.clone(), &|y| double.solve(symbolic.own(), y.as_mut())) < 1e-11);
-            let single = NumericFactor::<f32>::new(symbolic.own(), &a, kind, Vec::new()).expect("definite");
-            let lost = error(b.clone(), &|y| single.solve(symbolic.own(), y.as_mut()));
+            assert!(error(b.clone(), &|y| double.solve(plan.own(), y.as_mut())) < 1e-11);
+            let single = NumericFactor::<f32>::new(plan.own(), &a, kind, Vec::new()).expect("definite");
+            let lost = error(b.clone(), &|y| single.solve(plan.own(), y.as_mut()));
             assert!(lost < 3e-3 && lost > 1e-9, "{lost:e}");
         }
     }

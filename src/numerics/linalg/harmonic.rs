@@ -43,7 +43,7 @@ const RESONANCE: f64 = 1e-4;
 pub struct HarmonicProblem {
     ordering: Ordering,
     matrices: HarmonicMatrices,
-    symbolic: Arc<Plan>,
+    plan: Arc<Plan>,
     memory: Mutex<FactorMemory>,
 }
 
@@ -100,8 +100,8 @@ impl HarmonicProblem {
     ) -> Result<Self, HarmonicError> {
         let ordering = Ordering::of_problem(k, m, kept)?;
         let matrices = HarmonicMatrices::new(k, m, damping, &ordering)?;
-        let symbolic = Arc::new(Plan::of(&matrices.real(1.0))?);
-        Ok(Self { ordering, matrices, symbolic, memory: Mutex::default() })
+        let plan = Arc::new(Plan::of(&matrices.real(1.0))?);
+        Ok(Self { ordering, matrices, plan, memory: Mutex::default() })
     }
 
     /// Number of degrees of freedom.
@@ -174,7 +174,7 @@ impl HarmonicProblem {
     fn factorised(&self, squared: f64, double: bool) -> Result<Factor, LinalgError> {
         let memory = self.memory.lock().map_or_else(|_| FactorMemory::default(), |mut kept| take(&mut *kept));
         let a = self.matrices.real(squared);
-        Factor::unjudged(&self.symbolic, &a, Kind::Indefinite, double, memory)
+        Factor::unjudged(&self.plan, &a, Kind::Indefinite, double, memory)
     }
 
     fn keep(&self, factor: Factor) {

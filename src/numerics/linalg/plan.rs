@@ -20,6 +20,13 @@ pub struct FactorChoice {
     pub why: String,
 }
 
+impl FactorChoice {
+    /// It as a sentence.
+    pub(crate) fn sentence(&self) -> String {
+        format!("factorised by {}: {}", self.by, self.why)
+    }
+}
+
 /// Who factorises all matrices of one pattern.
 #[derive(Debug)]
 pub(super) enum Plan {
@@ -49,6 +56,40 @@ const SHARE: f64 = 0.5;
 #[cfg(feature = "mumps")]
 const COMPRESSED: f64 = 0.5;
 
+/// Who is asked to factorise.
+#[cfg(feature = "mumps")]
+enum Asked {
+    Nobody,
+    Own,
+    Mumps(Way, &'static str),
+}
+
+#[cfg(feature = "mumps")]
+fn asked() -> Result<Asked, LinalgError> {
+    let asked = std::env::var_os(CHOICE).unwrap_or_default();
+    Ok(match asked.to_string_lossy().as_ref() {
+        "" => Asked::Nobody,
+        "own" => Asked::Own,
+        "mumps" => Asked::Mumps(Way::InCore, "mumps"),
+        "mumps-low-rank" => Asked::Mumps(Way::LowRank, "mumps-low-rank"),
+        "mumps-out-of-core" => Asked::Mumps(Way::OutOfCore, "mumps-out-of-core"),
+        other => {
+            return Err(LinalgError::Refused(format!(
+                "the variable {CHOICE} is \"{other}\"; expected own, mumps, mumps-low-rank or mumps-out-of-core"
+            )));
+        }
+    })
+}
+
+/// Checks the variable that says who factorises.
+///
+/// # Errors
+/// [`LinalgError::Refused`] for a choice that is none.
+#[cfg(feature = "mumps")]
+pub(crate) fn check_asked() -> Result<(), LinalgError> {
+    asked().map(|_| ())
+}
+
 impl Plan {
     /// Analyses the pattern of a matrix in the order in which it is factorised, and says who does it.
     ///
@@ -66,19 +107,10 @@ impl Plan {
     fn chosen(a: &SymmetricMatrix) -> Result<Self, LinalgError> {
         let order = a.order();
         let by_mumps = |way: Way, why: String| Ok(Self::Mumps { order, way, why });
-        let asked = std::env::var(CHOICE).unwrap_or_default();
-        let forced = || format!("{CHOICE}={asked} asks for it");
-        match asked.as_str() {
-            "own" => return analysed(a).map(Self::Own),
-            "mumps" => return by_mumps(Way::InCore, forced()),
-            "mumps-low-rank" => return by_mumps(Way::LowRank, forced()),
-            "mumps-out-of-core" => return by_mumps(Way::OutOfCore, forced()),
-            "" => {}
-            other => {
-                return Err(LinalgError::Refused(format!(
-                    "the variable {CHOICE} is \"{other}\"; expected own, mumps, mumps-low-rank or mumps-out-of-core"
-                )));
-            }
+        match asked()? {
+            Asked::Own => return analysed(a).map(Self::Own),
+            Asked::Mumps(way, name) => return by_mumps(way, format!("{CHOICE}={name} asks for it")),
+            Asked::Nobody => {}
         }
         let ranks = mumps::ranks();
         let own = match analysed(a) {

@@ -12,7 +12,7 @@ use crate::app::scene::{
     AssembledHousing, CoupledStructure, MachineScene, RingsInHousing, bearing_setup, doubts, race_contacts,
 };
 use crate::fe::mesh::Mesh;
-use crate::fe::modal::{FullModes, ModalSurvey, ModeRange};
+use crate::fe::modal::{FullModes, Mechanisms, ModalSurvey, ModeRange};
 use crate::fe::model::HousingModel;
 use crate::formats::ModeShapes;
 use crate::numerics::{Unwatched, Watch};
@@ -94,9 +94,17 @@ impl ModesResult {
         mode_shapes(&self.survey, self.mesh_and_model())
     }
 
-    /// Whether every expected frequency was found and every comparison passes.
+    /// Number of modes of which nothing is known.
+    pub(crate) fn unknown(&self) -> usize {
+        let free = self.survey.mechanisms.as_ref().map(Mechanisms::total);
+        self.survey.basis.unknown(free)
+    }
+
+    /// Whether every frequency is known, every expected one was found, and every comparison passes.
     pub(crate) fn passes(&self) -> bool {
-        self.base.expected.iter().all(|expected| expected.ok) && self.comparisons.iter().all(|comparison| comparison.ok)
+        self.unknown() == 0
+            && self.base.expected.iter().all(|expected| expected.ok)
+            && self.comparisons.iter().all(|comparison| comparison.ok)
     }
 }
 

@@ -113,11 +113,16 @@ fn head(case: &Case, result: &ModesResult, command: &str) -> Report {
 pub(crate) fn completeness(check: FrequencyCount) -> (&'static str, String, Verdict) {
     let missed = check.counted.abs_diff(check.found);
     let what = match missed {
+        0 if check.counted == 0 => "nothing was proved: no mode lies".to_owned(),
         0 => "no mode missed".to_owned(),
         missed if check.found < check.counted => format!("{missed} missed"),
         surplus => format!("{surplus} too many found"),
     };
-    ("Modes, by an independent count", format!("{what} {}", tables::counted_range(&check)), Verdict::of(missed == 0))
+    (
+        "Modes, by an independent count",
+        format!("{what} {}", tables::counted_range(&check)),
+        Verdict::of(missed == 0 && check.counted > 0),
+    )
 }
 
 fn purpose(result: &ModesResult) -> Section {

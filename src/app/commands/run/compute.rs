@@ -238,9 +238,13 @@ impl<R: Recording> RunResult<R> {
 
     /// The estimated error of the signals, and for how long it holds.
     pub(crate) fn estimate_sentence(&self) -> String {
-        let (choice, horizon) = (&self.choice, self.horizon.map(|horizon| horizon.sentence()));
+        let choice = &self.choice;
         let Some(error) = choice.estimated_error else {
             return "the error of the signals is not estimated".to_owned();
+        };
+        let horizon = match error < 1.0 {
+            true => self.horizon.map(|horizon| horizon.sentence()),
+            false => Some("as large as the signals: compare spectra and verdicts, not samples".to_owned()),
         };
         format!(
             "estimated error of the signals in the band: {} of their RMS (target {}{}), {}",

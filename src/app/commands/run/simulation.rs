@@ -54,6 +54,8 @@ pub struct Simulation<R = RunRecord> {
     pub simulated_s: f64,
     /// Wall time of the stepping alone, s; of a run that went on, of all its parts.
     pub stepping_s: f64,
+    /// What of it passed before the run was resumed, s.
+    pub before_s: f64,
     /// Signals.
     pub record: R,
     /// The energy balance from the start to the last step; `None` where it was not asked for, where the equations have none
@@ -165,6 +167,7 @@ impl<R: Recording> Simulation<R> {
             start_s,
             simulated_s: integration.state.t - start_s,
             stepping_s: stepping.wall_s(),
+            before_s: stepping.before_s,
             record: stepping.record,
             energy,
             end,

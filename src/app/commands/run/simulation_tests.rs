@@ -221,6 +221,7 @@ fn with_signal(values: Vec<f64>) -> Simulation {
         start_s: 2.0,
         simulated_s: 1.0,
         stepping_s: 1.0,
+        before_s: 0.0,
         record,
         energy: None,
         end: RunEnd::Complete,

@@ -26,7 +26,7 @@ impl EigenProblem {
         blocks: usize,
     ) -> Result<SymmetricSpectrum, LinalgError> {
         let shifted = self.stiffness.shifted(-SHIFT * limit, &self.mass);
-        let factor = Factor::double(&self.symbolic, &shifted, Kind::Indefinite)?;
+        let factor = Factor::double(&self.plan, &shifted, Kind::Indefinite)?;
         let mut basis = Basis::new(&self.mass, modes.ncols() + blocks * forces.ncols());
         let mut add = |mut w: DenseMatrix| {
             let mut product = self.mass.times(w.as_ref());

@@ -58,7 +58,7 @@ impl EigenProblem {
     /// [`LinalgError::NearlySingular`] if `value` is an eigenvalue, or [`LinalgError::Factorisation`].
     fn count_below(&self, value: f64, memory: FactorMemory) -> Result<usize, LinalgError> {
         let shifted = self.stiffness.shifted(value, &self.mass);
-        Ok(Factor::new(&self.symbolic, &shifted, Kind::Indefinite, memory)?.negative())
+        Ok(Factor::new(&self.plan, &shifted, Kind::Indefinite, memory)?.negative())
     }
 
     /// Counts somewhere between `low` and `high`, between which no eigenvalue is known; the place is moved when the
@@ -113,7 +113,7 @@ impl EigenProblem {
         for place in [0.5, 0.47, 0.53, 0.44] {
             let sigma = low + place * (high - low);
             let shifted = self.stiffness.shifted(sigma, &self.mass);
-            match Factor::double(&self.symbolic, &shifted, Kind::Indefinite) {
+            match Factor::double(&self.plan, &shifted, Kind::Indefinite) {
                 Ok(factor) => return Ok((sigma, factor)),
                 Err(error) => failed = error,
             }
@@ -153,7 +153,7 @@ impl EigenProblem {
     /// Factor of a matrix that must be positive definite, in double precision only where it was asked for before.
     pub(super) fn definite(&self, a: &SymmetricMatrix, thorough: bool) -> Result<Factor, LinalgError> {
         let factorise = if thorough { Factor::new } else { Factor::quick };
-        let factor = factorise(&self.symbolic, a, Kind::Definite, FactorMemory::default())?;
+        let factor = factorise(&self.plan, a, Kind::Definite, FactorMemory::default())?;
         match factor.negative() {
             0 => Ok(factor),
             negative => Err(LinalgError::Refused(format!(

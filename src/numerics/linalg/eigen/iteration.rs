@@ -158,7 +158,7 @@ impl EigenProblem {
 
     /// Whether a second factor can stand beside the first without filling the memory.
     fn has_room(&self) -> bool {
-        let bytes = SINGLE.saturating_mul(self.symbolic.entries() as u64);
+        let bytes = SINGLE.saturating_mul(self.plan.entries() as u64);
         memory::available().is_none_or(|free| free / 2 > bytes)
     }
 

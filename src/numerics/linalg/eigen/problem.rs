@@ -21,7 +21,7 @@ pub struct EigenProblem {
     pub(super) ordering: Arc<Ordering>,
     pub(super) stiffness: SymmetricMatrix,
     pub(super) mass: SymmetricMatrix,
-    pub(super) symbolic: Arc<Plan>,
+    pub(super) plan: Arc<Plan>,
     /// Factor of K, if somebody has it.
     pub(super) factor: Option<Arc<Factor>>,
     pub(super) order_s: f64,
@@ -62,7 +62,7 @@ impl EigenProblem {
     fn ordered([k, m]: [&SparseMatrix; 2], ordering: Ordering, started: Instant) -> Result<Self, LinalgError> {
         let stiffness = SymmetricMatrix::permuted(k, &ordering);
         let mass = SymmetricMatrix::permuted(m, &ordering);
-        let symbolic = Arc::new(if stiffness.covers(&mass) {
+        let plan = Arc::new(if stiffness.covers(&mass) {
             Plan::of(&stiffness)?
         } else {
             Plan::of(&stiffness.shifted(1.0, &mass))?
@@ -71,7 +71,7 @@ impl EigenProblem {
             ordering: Arc::new(ordering),
             stiffness,
             mass,
-            symbolic,
+            plan,
             factor: None,
             order_s: started.elapsed().as_secs_f64(),
         })
@@ -97,17 +97,17 @@ impl EigenProblem {
         let order_s = started.elapsed().as_secs_f64();
         let cholesky = SparseCholesky::of_permuted(&stiffness, Arc::clone(&ordering))?;
         let factor = cholesky.factor();
-        let symbolic = if stiffness.covers(&mass) {
-            Arc::clone(&factor.symbolic)
+        let plan = if stiffness.covers(&mass) {
+            Arc::clone(&factor.plan)
         } else {
             Arc::new(Plan::of(&stiffness.shifted(1.0, &mass))?)
         };
-        Ok((Self { ordering, stiffness, mass, symbolic, factor: Some(factor), order_s }, cholesky))
+        Ok((Self { ordering, stiffness, mass, plan, factor: Some(factor), order_s }, cholesky))
     }
 
     /// Who factorises, if not our own factor.
     pub(crate) fn factor_choice(&self) -> Option<FactorChoice> {
-        self.symbolic.choice()
+        self.plan.choice()
     }
 
     /// Number of degrees of freedom.

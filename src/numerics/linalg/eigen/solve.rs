@@ -168,7 +168,7 @@ impl EigenProblem {
         let vectors = spectrum.vectors.subcols(0, available).to_owned();
         let ritz = SymmetricSpectrum { values, vectors };
         let shifted = self.stiffness.shifted(shift, &self.mass);
-        let factor = Factor::double(&self.symbolic, &shifted, Kind::Indefinite)?;
+        let factor = Factor::double(&self.plan, &shifted, Kind::Indefinite)?;
         let pairs = EigenPairs::judged(&self.stiffness, &self.mass, &factor, shift, &ritz, count);
         times.iterate = started.elapsed().as_secs_f64();
         self.finished(pairs, check, times)

@@ -219,9 +219,9 @@ fn both_precisions_lead_to_the_same_response() {
     let omega = 0.5;
     let a = problem.matrices.real(omega * omega);
     let solve = |factor: &Factor| krylov::solve(&f, |x| problem.matrices.times(omega, x), |x| factor.solve(x.as_mut()));
-    let double = Factor::unjudged(&problem.symbolic, &a, Kind::Indefinite, true, FactorMemory::default());
-    let numbers = NumericFactor::new(problem.symbolic.own(), &a, Kind::Indefinite, Vec::new()).expect("regular");
-    let single = Factor::measured(&problem.symbolic, &a, Numbers::Single(numbers));
+    let double = Factor::unjudged(&problem.plan, &a, Kind::Indefinite, true, FactorMemory::default());
+    let numbers = NumericFactor::new(problem.plan.own(), &a, Kind::Indefinite, Vec::new()).expect("regular");
+    let single = Factor::measured(&problem.plan, &a, Numbers::Single(numbers));
     let found = [double.expect("regular"), single].map(|factor| solve(&factor));
     assert!(found.iter().all(|found| found.residuals[0] <= 1e-12));
     let difference = (&found[0].x - &found[1].x).norm_max();

@@ -179,7 +179,7 @@ fn condensed_words(complete_hz: f64, wanted_hz: Option<f64>) -> String {
     match wanted_hz.filter(|wanted_hz| *wanted_hz > complete_hz) {
         None => left_out,
         Some(wanted_hz) => format!(
-            "{left_out}, where the target asks for those up to {} kHz: the program takes at most {} million numbers, vectors times degrees of freedom",
+            "{left_out}, where the target asks for those up to {} kHz: the program takes at most {} million numbers, fixed-interface modes times degrees of freedom",
             khz(wanted_hz),
             MOST_NUMBERS / 1_000_000
         ),
@@ -197,7 +197,7 @@ mod tests {
         assert_eq!(condensed_words(175e3, None), all);
         assert_eq!(
             condensed_words(114e3, Some(172e3)),
-            "of the housing's interior; those above 114 kHz are left out, where the target asks for those up to 172 kHz: the program takes at most 4 million numbers, vectors times degrees of freedom"
+            "of the housing's interior; those above 114 kHz are left out, where the target asks for those up to 172 kHz: the program takes at most 4 million numbers, fixed-interface modes times degrees of freedom"
         );
     }
 }
