@@ -1,13 +1,14 @@
 """Modes of a pillow block by size: plummer beside CalculiX and SLEPc, in seconds of the processor, wall time and memory.
 
-    apt-get install gmsh calculix-ccx python3-slepc4py-real
+    apt-get install gmsh calculix-ccx python3-slepc4py-real libopenblas0-pthread
     cargo build --release
     python3 benches/housings.py [--sizes 59,244] [--programs plummer,calculix,slepc] [--repeats 3] [--threads 1,2]
 
 The meshes are meshes/pedestal.geo with both element sizes times a factor (59: tests/data/pedestal_60k.msh), the feet
 fixed, `integration = "4-point"` as in CalculiX. Every row is a whole process: plummer reads the mesh, counts the modes and writes its report; CalculiX reads the
-input file of `plummer export`; SLEPc reads matrices and solves by Krylov-Schur with MUMPS at the shift zero. The frequencies
-of the others are compared with plummer's. Medians of the repetitions; programs take turns.
+input file of `plummer export`; SLEPc reads matrices and solves by Krylov-Schur with MUMPS at the shift zero. With the
+reference BLAS it takes three times as long. The frequencies of the others are compared with plummer's. Medians of the
+repetitions; programs take turns.
 """
 
 import argparse
