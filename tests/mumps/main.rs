@@ -91,22 +91,93 @@ fn a_choice_that_is_none_is_told() {
     let folder = case();
     let output = run(folder.path(), "mumbs", &[]);
     let errors = String::from_utf8_lossy(&output.stderr);
-    assert!(!output.status.success() && errors.contains("mumps-low-rank"), "{errors}");
+    assert_eq!(output.status.code(), Some(2), "{errors}");
+    assert!(errors.contains("mumps-low-rank"), "{errors}");
+    // at the start: what the case says does not matter
+    fs::write(folder.path().join("case.toml"), "title = 1").expect("a case");
+    let output = run(folder.path(), "mumbs", &[]);
+    let errors = String::from_utf8_lossy(&output.stderr);
+    assert_eq!(output.status.code(), Some(2), "{errors}");
+    assert!(errors.starts_with("error: the variable PLUMMER_FACTOR is \"mumbs\"; expected own"), "{errors}");
 }
 
+/// Before anything is computed: the case does not exist.
 #[test]
 fn files_that_cannot_be_written_are_told() {
-    let folder = case();
-    let output = Command::new(env!("CARGO_BIN_EXE_plummer"))
-        .args(["modes", "case.toml"])
-        .current_dir(folder.path())
-        .env("PLUMMER_FACTOR", "mumps-out-of-core")
-        .env("MUMPS_OOC_TMPDIR", folder.path().join("missing"))
-        .output()
-        .expect("it starts");
-    let errors = String::from_utf8_lossy(&output.stderr);
-    assert_eq!(output.status.code(), Some(1), "{errors}");
-    assert!(errors.contains("set MUMPS_OOC_TMPDIR"), "{errors}");
+    let folder = tempfile::tempdir().expect("a folder");
+    fs::write(folder.path().join("file"), "").expect("a file");
+    let long = "long".repeat(60);
+    fs::create_dir(folder.path().join(&long)).expect("a folder");
+    for (files, words) in [
+        ("missing", "No such file"),
+        ("file", "no folder"),
+        // takes no folders
+        ("/proc", "No such file"),
+        (&long, "longer than 255 bytes"),
+    ] {
+        for (factor, is_checked) in [("", true), ("mumps-out-of-core", true), ("own", false)] {
+            let output = Command::new(env!("CARGO_BIN_EXE_plummer"))
+                .args(["modes", "case.toml"])
+                .current_dir(folder.path())
+                .env("PLUMMER_FACTOR", factor)
+                .env("MUMPS_OOC_TMPDIR", folder.path().join(files))
+                .output()
+                .expect("it starts");
+            let errors = String::from_utf8_lossy(&output.stderr);
+            assert_eq!(output.status.code(), Some(2), "{errors}");
+            let said = errors.starts_with("error: the variable MUMPS_OOC_TMPDIR is") && errors.contains(words);
+            assert_eq!(said, is_checked, "{files} {factor}: {errors}");
+        }
+    }
+}
+
+/// Address space that leaves no room for our own factor beside the work, but for that of MUMPS: among limits that are tried one after the other,
+/// for what libraries reserve differs by machine.
+#[test]
+fn mumps_steps_in_where_a_limit_of_the_process_is_too_low() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let (edge, mut nodes, mut elements) = (24, String::new(), String::new());
+    let number = |x: usize, y: usize, z: usize| 1 + x + (edge + 1) * (y + (edge + 1) * z);
+    for (z, y, x) in cells(edge + 1) {
+        nodes += &format!("{} {x} {y} {z}\n", number(x, y, z));
+    }
+    let corners = [[0, 0], [1, 0], [1, 1], [0, 1]];
+    let mut count = 0;
+    for (z, y, x) in cells(edge) {
+        let of = |z: usize| corners.map(|[i, j]| number(x + i, y + j, z).to_string()).join(" ");
+        count += 1;
+        elements += &format!("{count} 5 2 1 1 {} {}\n", of(z), of(z + 1));
+    }
+    let mesh = format!(
+        "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n1\n3 1 \"block\"\n$EndPhysicalNames\n$Nodes\n{}\n{nodes}$EndNodes\n\
+         $Elements\n{count}\n{elements}$EndElements\n",
+        (edge + 1).pow(3)
+    );
+    fs::write(folder.path().join("block.msh"), mesh).expect("a mesh");
+    let case = "[housing]\nmesh = 'block.msh'\nlength_unit = 'mm'\nparts = [{ group = 'block', material = 'aluminium' }]\n[modes]\ncount = 8\n";
+    fs::write(folder.path().join("case.toml"), case).expect("a case");
+    let found = (10..80).find_map(|step| {
+        let line = format!(
+            "ulimit -v {}; exec {} modes case.toml --threads 1 --force",
+            20_000 * step,
+            env!("CARGO_BIN_EXE_plummer")
+        );
+        let mut command = Command::new("sh");
+        command
+            .args(["-c", &line])
+            .current_dir(folder.path())
+            .env("OPENBLAS_NUM_THREADS", "1")
+            .env("RUST_BACKTRACE", "0");
+        let output = command.output().expect("a shell");
+        output.status.success().then(|| String::from_utf8_lossy(&output.stderr).into_owned())
+    });
+    let said = found.expect("a limit with room");
+    assert!(said.contains("factorised by MUMPS") && said.contains("process's address space (ulimit -v)"), "{said}");
+}
+
+/// All places of a cube.
+fn cells(edge: usize) -> impl Iterator<Item = (usize, usize, usize)> {
+    (0..edge).flat_map(move |z| (0..edge).flat_map(move |y| (0..edge).map(move |x| (z, y, x))))
 }
 
 #[cfg(feature = "mumps-mpi")]

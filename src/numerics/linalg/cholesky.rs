@@ -78,7 +78,7 @@ impl SparseCholesky {
     /// Solves `A x = b` for one right-hand side of length n, in place.
     ///
     /// # Errors
-    /// [`LinalgError::Shape`] if the length is not n.
+    /// As [`SparseCholesky::solve_columns`].
     pub fn solve_vector(&self, right_hand_side: &mut [f64]) -> Result<(), LinalgError> {
         let mut column = DenseMatrix::from_fn(right_hand_side.len(), 1, |row, _| right_hand_side[row]);
         self.solve_columns(&mut column)?;
@@ -89,7 +89,7 @@ impl SparseCholesky {
     /// Solves `A X = B` for all columns of `B` [n x k] at once, in place.
     ///
     /// # Errors
-    /// [`LinalgError::Shape`] if `B` has not n rows.
+    /// [`LinalgError::Shape`] if `B` has not n rows, [`LinalgError::Library`] if the library that has the factor fails.
     pub fn solve_columns(&self, right_hand_sides: &mut DenseMatrix) -> Result<(), LinalgError> {
         let (expected, found) = (self.order(), right_hand_sides.nrows());
         if found != expected {
@@ -97,6 +97,7 @@ impl SparseCholesky {
         }
         let mut permuted = self.ordering.forward(right_hand_sides);
         self.factor.solve(permuted.as_mut());
+        self.factor.check()?;
         self.ordering.backward(&permuted, right_hand_sides);
         Ok(())
     }

@@ -3,9 +3,13 @@
 use std::f64::consts::TAU;
 use thiserror::Error;
 
-/// In 10^9 bytes, a digit behind the point.
+/// In 10^9 bytes, a digit behind the point, or where that is little in 10^6.
 pub(super) fn gigabytes(bytes: u64) -> String {
-    format!("{:.1}", bytes as f64 / 1e9)
+    if bytes < 100_000_000 {
+        format!("{} MB", bytes.div_ceil(1_000_000))
+    } else {
+        format!("{:.1} GB", bytes as f64 / 1e9)
+    }
 }
 
 /// Failure of a numerical linear algebra step.
@@ -39,7 +43,7 @@ pub enum LinalgError {
     },
     /// A factor that is larger than the memory.
     #[error(
-        "the factor of a {order} x {order} matrix has {entries} entries, at least {} GB: {limit}; expected a coarser mesh, or elements of lower order",
+        "the factor of a {order} x {order} matrix has {entries} entries, at least {}: {limit}; expected a coarser mesh, or elements of lower order",
         gigabytes(*bytes)
     )]
     TooLarge {

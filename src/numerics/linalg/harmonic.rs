@@ -126,6 +126,7 @@ impl HarmonicProblem {
         let mut times = HarmonicTimes { factor: started.elapsed().as_secs_f64(), ..HarmonicTimes::default() };
         let started = Instant::now();
         let found = krylov::solve(&f, |x| self.matrices.times(omega, x), |x| factor.solve(x.as_mut()));
+        factor.check()?;
         times.iterate = started.elapsed().as_secs_f64();
         for (load, &residual) in found.residuals.iter().enumerate() {
             self.judge(omega, load, residual, &f, &found)?;

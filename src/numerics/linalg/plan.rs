@@ -48,7 +48,8 @@ pub(super) enum Plan {
 #[cfg(feature = "mumps")]
 const CHOICE: &str = "PLUMMER_FACTOR";
 
-/// Share of the memory that is free up to which a factor of low rank may take it: the iteration's vectors need the rest.
+/// Share of the memory that is free up to which a factor of low rank may take it, and of what a limit of the process leaves any factor:
+/// fronts and the iteration's vectors need the rest.
 #[cfg(feature = "mumps")]
 const SHARE: f64 = 0.5;
 
@@ -81,13 +82,16 @@ fn asked() -> Result<Asked, LinalgError> {
     })
 }
 
-/// Checks the variable that says who factorises.
+/// Checks the variables that say who factorises, and where files of a factor are written.
 ///
 /// # Errors
-/// [`LinalgError::Refused`] for a choice that is none.
+/// [`LinalgError::Refused`] for a choice that is none, or a folder that cannot be written.
 #[cfg(feature = "mumps")]
 pub(crate) fn check_asked() -> Result<(), LinalgError> {
-    asked().map(|_| ())
+    match asked()? {
+        Asked::Own | Asked::Mumps(Way::InCore, _) => Ok(()),
+        Asked::Nobody | Asked::Mumps(..) => mumps::check_root(),
+    }
 }
 
 impl Plan {
@@ -113,15 +117,24 @@ impl Plan {
             Asked::Nobody => {}
         }
         let ranks = mumps::ranks();
+        let too_large = |entries: u64, limit: String| {
+            // fronts of full rank are allocated at once, which a limit of the process does not bear
+            let fits = memory::available().is_none_or(|room| {
+                let free = room.bytes as f64 * ranks as f64;
+                !room.is_of_process() && COMPRESSED * 4.0 * (entries as f64) < SHARE * free
+            });
+            let way = if fits { Way::LowRank } else { Way::OutOfCore };
+            by_mumps(way, format!("the factor's {entries} entries do not fit: {limit}"))
+        };
         let own = match analysed(a) {
-            Err(LinalgError::TooLarge { entries, limit, .. }) => {
-                let free = memory::available().unwrap_or(u64::MAX) as f64 * ranks as f64;
-                let fits = COMPRESSED * 4.0 * (entries as f64) < SHARE * free;
-                let way = if fits { Way::LowRank } else { Way::OutOfCore };
-                return by_mumps(way, format!("the factor's {entries} entries do not fit: {limit}"));
-            }
+            Err(LinalgError::TooLarge { entries, limit, .. }) => return too_large(entries, limit),
             own => own?,
         };
+        let bytes = memory::bytes_of(own.entries()) as f64;
+        let narrow = |room: &memory::Room| room.is_of_process() && bytes > SHARE * room.bytes as f64;
+        if let Some(room) = memory::available().filter(narrow) {
+            return too_large(own.entries() as u64, format!("{room}, and the work beside them takes as much again"));
+        }
         if ranks > 1 && own.entries() > SMALL {
             return by_mumps(Way::InCore, format!("{ranks} processes compute together"));
         }

@@ -41,6 +41,7 @@ impl EigenProblem {
                 break;
             }
             factor.solve(next.as_mut());
+            factor.check()?;
             (next, _) = add(next)?;
         }
         let vectors = basis.vectors().subcols(known, basis.size - known);

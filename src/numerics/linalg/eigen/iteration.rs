@@ -103,6 +103,7 @@ impl EigenProblem {
             let ritz = search.converge(&factor)?;
             drop(search);
             let pairs = EigenPairs::judged(&self.stiffness, &self.mass, &factor, shift, &ritz, count);
+            factor.check()?;
             Ok((ritz.values, pairs, started.elapsed().as_secs_f64()))
         };
         let (iterated, mut counted) = match early {
@@ -159,7 +160,7 @@ impl EigenProblem {
     /// Whether a second factor can stand beside the first without filling the memory.
     fn has_room(&self) -> bool {
         let bytes = SINGLE.saturating_mul(self.plan.entries() as u64);
-        memory::available().is_none_or(|free| free / 2 > bytes)
+        memory::available().is_none_or(|free| free.bytes / 2 > bytes)
     }
 
     /// Where in a gap it was counted, how many eigenvalues lie below, and how long that took, s.

@@ -148,10 +148,9 @@ impl EigenProblem {
         let order = self.order();
         let bytes = 8 * COPIES * order as u64 * count as u64;
         match memory::available() {
-            Some(free) if bytes > free => Err(LinalgError::Refused(format!(
-                "{count} modes of {order} degrees of freedom take at least {} GB, {} GB of memory are free; ask for fewer modes",
-                gigabytes(bytes),
-                gigabytes(free)
+            Some(free) if bytes > free.bytes => Err(LinalgError::Refused(format!(
+                "{count} modes of {order} degrees of freedom take at least {}, {free}; ask for fewer modes",
+                gigabytes(bytes)
             ))),
             _ => Ok(()),
         }

@@ -156,7 +156,10 @@ impl EigenProblem {
             times.factor += started.elapsed().as_secs_f64();
             let started = Instant::now();
             let ends = [low.0, high.0];
-            let ritz = band::between(&self.stiffness, &self.mass, &middle, ends, count)?;
+            let ritz = band::between(&self.stiffness, &self.mass, &middle, ends, count);
+            // a factor that fails makes no pairs, whatever the iteration says of that
+            middle.1.check()?;
+            let ritz = ritz?;
             times.iterate += started.elapsed().as_secs_f64();
             // seen from far above all pairs look alike
             match ritz.values.last() {
@@ -167,6 +170,7 @@ impl EigenProblem {
         let started = Instant::now();
         let (sigma, factor) = middle;
         let pairs = EigenPairs::judged(&self.stiffness, &self.mass, &factor, sigma, &ritz, count);
+        factor.check()?;
         times.iterate += started.elapsed().as_secs_f64();
         self.finished(pairs, check_of(low, high), times)
     }

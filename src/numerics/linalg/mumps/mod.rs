@@ -9,22 +9,25 @@
 mod ffi;
 mod files;
 mod instance;
+mod probe;
 mod structure;
 mod way;
 #[cfg(feature = "mumps-mpi")]
 #[allow(unsafe_code)]
 mod world;
 
+use super::dense::pseudo_random;
 use super::{Kind, LinalgError, SymmetricMatrix, gigabytes};
 use faer::MatMut;
 use faer::prelude::{Reborrow, ReborrowMut};
 use files::Folder;
 use instance::{Entries, Failure, Instance};
-
+use probe::Probe;
 use std::ffi::c_int;
 use std::sync::{Mutex, OnceLock, PoisonError};
 
 use ffi::Real;
+pub(super) use files::check_root;
 pub(super) use way::Way;
 #[cfg(feature = "mumps-mpi")]
 pub(crate) use world::joined;
@@ -61,9 +64,9 @@ pub(super) struct MumpsFactor<T: Real> {
     negative: usize,
     way: Way,
     /// Of the first solve that failed.
-    failure: OnceLock<Failure>,
-    /// Holds its files, if any; removed after the instance.
-    _folder: Option<Folder>,
+    failure: OnceLock<LinalgError>,
+    /// Its files, if any, and what tells whether they still are what was written; removed after the instance.
+    on_disk: Option<(Folder, Probe<T>)>,
 }
 
 impl<T: Real> std::fmt::Debug for MumpsFactor<T> {
@@ -81,7 +84,7 @@ impl<T: Real> MumpsFactor<T> {
     pub(super) fn new(a: &SymmetricMatrix, kind: Kind, way: Way) -> Result<Self, LinalgError> {
         let order = a.order();
         let failed = |failure| told(failure, order, way);
-        let folder = if way == Way::OutOfCore { Some(Folder::new()?) } else { None };
+        let mut folder = if way == Way::OutOfCore { Some(Folder::new()?) } else { None };
         let path = folder.as_ref().map_or(&[][..], Folder::bytes);
         ffi::limit_threads(rayon::current_num_threads());
         let mut instance = Instance::<T>::new(kind == Kind::Definite, path).map_err(failed)?;
@@ -138,7 +141,22 @@ impl<T: Real> MumpsFactor<T> {
         if kind == Kind::Definite && negative > 0 {
             return Err(LinalgError::NotPositiveDefinite { order, pivot: 0 });
         }
-        Ok(Self { instance: Mutex::new(instance), scale, negative, way, failure: OnceLock::new(), _folder: folder })
+        if let Some(folder) = &mut folder {
+            folder.written();
+        }
+        let on_disk = folder.map(|folder| {
+            let answer = pseudo_random(order, 1, 0);
+            let mut side = vec![0.0; order];
+            for ((&row, &column), &value) in rows.iter().zip(&columns).zip(&values) {
+                let (row, column) = (row as usize - 1, column as usize - 1);
+                side[row] += value.value() * answer[(column, 0)];
+                if row != column {
+                    side[column] += value.value() * answer[(row, 0)];
+                }
+            }
+            (folder, Probe::new(answer, side))
+        });
+        Ok(Self { instance: Mutex::new(instance), scale, negative, way, failure: OnceLock::new(), on_disk })
     }
 
     /// `A^-1 B` in place for `B` [n x k]; no numbers where MUMPS failed, which [`MumpsFactor::check`] tells.
@@ -150,21 +168,41 @@ impl<T: Real> MumpsFactor<T> {
                 *to = T::of(scale * from);
             }
         }
+        if let Some((_, probe)) = &self.on_disk {
+            sides.extend(probe.side());
+        }
         let solved = self.instance.lock().unwrap_or_else(PoisonError::into_inner).solve(&mut sides);
+        let answered = sides.split_off(order * b.ncols());
+        let failure = match (solved, &self.on_disk) {
+            (Err(_), Some((folder, _))) if !folder.is_whole() => Some(self.useless(&format!(
+                "its files in {} are gone: something removed them; set MUMPS_OOC_TMPDIR to a folder that nothing clears, and compute again",
+                folder.path().display()
+            ))),
+            (Err(failure), _) => Some(told(failure, order, self.way)),
+            (Ok(()), Some((folder, probe))) if !probe.holds(&answered) => Some(self.useless(&format!(
+                "solutions no longer satisfy their equations: the factor's files in {} are damaged; set MUMPS_OOC_TMPDIR to a folder on a sound disk that nothing else writes to, and compute again",
+                folder.path().display()
+            ))),
+            (Ok(()), _) => None,
+        };
         for (column, side) in sides.chunks_exact(order.max(1)).enumerate() {
             for ((to, from), scale) in b.rb_mut().col_mut(column).iter_mut().zip(side).zip(&self.scale) {
-                *to = if solved.is_ok() { scale * from.value() } else { f64::NAN };
+                *to = if failure.is_none() { scale * from.value() } else { f64::NAN };
             }
         }
-        if let Err(failure) = solved {
+        if let Some(failure) = failure {
             self.failure.get_or_init(|| failure);
         }
+    }
+
+    fn useless(&self, reason: &str) -> LinalgError {
+        LinalgError::Library { order: self.scale.len(), by: by(self.way), reason: reason.to_owned() }
     }
 
     /// # Errors
     /// [`LinalgError::Library`] if a solve has failed, as by a disk that does not answer.
     fn check(&self) -> Result<(), LinalgError> {
-        self.failure.get().map_or(Ok(()), |failure| Err(told(*failure, self.scale.len(), self.way)))
+        self.failure.get().map_or(Ok(()), |failure| Err(failure.clone()))
     }
 }
 
@@ -232,9 +270,14 @@ impl Numbers {
     }
 }
 
+/// Who factorised, in the middle of a sentence.
+fn by(way: Way) -> String {
+    format!("MUMPS, {way},")
+}
+
 /// What a failure of MUMPS means to who reads it (users' guide of version 5.5, section 8).
 fn told(Failure(code, detail): Failure, order: usize, way: Way) -> LinalgError {
-    let refused = |reason: String| LinalgError::Library { order, by: format!("MUMPS, {way},"), reason };
+    let refused = |reason: String| LinalgError::Library { order, by: by(way), reason };
     match code {
         0 => refused("its library has another version; expected 5.5, with which the program was built".to_owned()),
         -40 => LinalgError::NotPositiveDefinite { order, pivot: 0 },
@@ -247,12 +290,12 @@ fn told(Failure(code, detail): Failure, order: usize, way: Way) -> LinalgError {
             // in units of entries, or of millions of them
             let entries = if detail < 0 { 1_000_000 * i64::from(detail).unsigned_abs() } else { detail as u64 };
             refused(format!(
-                "{} GB more of memory are not there (INFO {code}); free memory, use more processes (mpirun), or a coarser mesh",
+                "{} more of memory are not there (INFO {code}); free memory, raise its limit (ulimit -v), use more processes (mpirun), or a coarser mesh",
                 gigabytes(4 * entries)
             ))
         }
         -8 | -9 | -11 | -14 | -15 | -20..=-17 => refused(format!(
-            "its memory does not suffice (INFO {code}, {detail}); free memory, use more processes (mpirun), or a coarser mesh"
+            "its memory does not suffice (INFO {code}, {detail}); free memory, raise its limit (ulimit -v), use more processes (mpirun), or a coarser mesh"
         )),
         _ => refused(format!("INFO {code}, {detail}; see the users' guide of MUMPS, section 8")),
     }

@@ -73,6 +73,7 @@ fn what_cannot_be_factorised_is_told() {
     for (failure, words) in [
         (Failure(-90, 0), "MUMPS_OOC_TMPDIR"),
         (Failure(-13, -2000), "8.0 GB more of memory"),
+        (Failure(-13, 260_000), "2 MB more of memory"),
         (Failure(-9, 7), "free memory"),
         (Failure(0, 0), "expected 5.5"),
     ] {
@@ -84,9 +85,9 @@ fn what_cannot_be_factorised_is_told() {
 #[test]
 fn files_are_in_a_folder_and_gone_with_the_factor() {
     let factor = MumpsFactor::<f32>::new(&cube(9, 0.0), Kind::Indefinite, Way::OutOfCore).expect("regular");
-    let path = factor._folder.as_ref().expect("a folder").bytes();
-    let path = std::path::PathBuf::from(std::str::from_utf8(path).expect("UTF-8"));
-    assert!(std::fs::read_dir(&path).expect("it is there").count() > 0);
+    let path = factor.on_disk.as_ref().expect("a folder").0.path().to_owned();
+    // beside the one that names the machine
+    assert!(std::fs::read_dir(&path).expect("it is there").count() > 1);
     drop(factor);
     assert!(!path.exists());
 }
@@ -97,11 +98,44 @@ fn a_solve_that_failed_is_told_by_its_factor() {
     let numbers = MumpsFactor::<f32>::new(&a, Kind::Indefinite, Way::OutOfCore).expect("regular");
     assert_eq!(numbers.check(), Ok(()));
     // what MUMPS says of a file that it cannot read
-    numbers.failure.set(Failure(-90, 0)).expect("none failed");
+    numbers.failure.set(told(Failure(-90, 0), a.order(), Way::OutOfCore)).expect("none failed");
     let plan = Arc::new(Plan::of(&a).expect("analysed"));
     let factor = Factor::measured(&plan, &a, OfFactor::Mumps(Box::new(Numbers::Single(numbers))));
     let failed = factor.check().expect_err("a solve failed").to_string();
     assert!(failed.contains("MUMPS_OOC_TMPDIR"), "{failed}");
+}
+
+/// Files that something changes or removes between two solves.
+#[test]
+fn files_that_are_damaged_or_gone_are_told() {
+    let a = cube(14, 0.0);
+    let damage = |path: &std::path::Path| {
+        let length = std::fs::metadata(path).expect("a file").len() as usize;
+        std::fs::write(path, vec![0x3f; length]).expect("writable");
+    };
+    let removal = |path: &std::path::Path| std::fs::remove_file(path).expect("a file");
+    let ways: [(&dyn Fn(&std::path::Path), &str); 2] = [(&damage, "are damaged"), (&removal, "are gone")];
+    for (does, words) in ways {
+        for double in [false, true] {
+            let numbers = Numbers::new(&a, Kind::Indefinite, Way::OutOfCore, double).expect("regular");
+            let folder = match &numbers {
+                Numbers::Single(factor) => &factor.on_disk.as_ref().expect("files").0,
+                Numbers::Double(factor) => &factor.on_disk.as_ref().expect("files").0,
+            };
+            let mut b = pseudo_random(a.order(), 3, 5);
+            for _ in 0..3 {
+                numbers.solve(b.as_mut());
+                assert_eq!(numbers.check(), Ok(()));
+            }
+            for entry in std::fs::read_dir(folder.path()).expect("a folder").flatten() {
+                does(&entry.path());
+            }
+            numbers.solve(b.as_mut());
+            let failed = numbers.check().expect_err("no factor").to_string();
+            assert!(failed.contains(words) && failed.contains("set MUMPS_OOC_TMPDIR"), "{failed}");
+            assert!(b[(0, 0)].is_nan());
+        }
+    }
 }
 
 #[test]

@@ -9,6 +9,7 @@
 //! **Limitations**: OpenMPI, whose names of communicators and types these are.
 
 use super::ffi::{self, Job, LONGEST_PATH, Real};
+use super::files::MACHINE;
 use super::structure::Structure;
 use std::collections::HashMap;
 use std::ffi::{OsStr, c_int, c_void};
@@ -212,8 +213,10 @@ fn join<T: Real>(instances: &mut HashMap<c_int, Box<Structure<T>>>, message: &Me
     let Some(job) = job.into_iter().find(|job| *job as c_int == message.job) else { return };
     if job == Job::Begin {
         // on another machine it is not there yet
-        if let Some(path) = &path {
-            let _ = fs::DirBuilder::new().mode(0o700).create(path);
+        if let Some(path) = &path
+            && fs::DirBuilder::new().mode(0o700).create(path).is_ok()
+        {
+            let _ = fs::write(path.join(MACHINE), "of another");
         }
         instances.insert(message.name, ffi::empty(message.symmetry, folder));
     }
