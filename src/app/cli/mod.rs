@@ -30,7 +30,6 @@ mod verify;
 
 use std::ffi::OsString;
 use std::io::{self, Write};
-use std::num::NonZeroUsize;
 use std::path::Path;
 use std::process::ExitCode;
 use std::time::Duration;
@@ -130,7 +129,13 @@ pub(crate) fn execute(arguments: &Arguments, to: &mut impl Write) -> Result<(), 
     #[cfg(feature = "mumps")]
     crate::numerics::linalg::check_asked().map_err(|error| CliError::input(error.to_string()))?;
     let options = &arguments.options;
-    let threads = options.threads.map_or(0, NonZeroUsize::get);
+    let threads = options.cores();
+    if let Some(asked) = options.threads.filter(|asked| asked.get() > threads && options.shows_progress()) {
+        let _ = writeln!(
+            io::stderr(),
+            "note: --threads {asked} is more than this process has cores, which would take turns: {threads} compute"
+        );
+    }
     let cannot = |why: &str| {
         CliError::failed(format!("the threads that compute cannot be started: {why}"))
             .with_help("use fewer with --threads, or raise the limits of memory and threads (ulimit -v, ulimit -u)")

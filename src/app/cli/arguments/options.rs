@@ -21,7 +21,7 @@ pub struct Options {
     /// Folder for the results (default: one of its own in out/)
     #[arg(long, global = true, value_name = "DIR")]
     pub out: Option<PathBuf>,
-    /// Number of threads (default: all cores)
+    /// Number of threads (default, and at most: all cores)
     #[arg(long, global = true, allow_hyphen_values = true, value_name = "N", value_parser = number_of_threads)]
     pub threads: Option<NonZeroUsize>,
     /// Print errors only, no progress and no summary
@@ -46,6 +46,13 @@ pub struct Options {
 }
 
 impl Options {
+    /// Number of threads that compute: as many as asked for, no more than cores that this process may use; by default those.
+    #[must_use]
+    pub(crate) fn cores(&self) -> usize {
+        let cores = std::thread::available_parallelism().map_or(1, NonZeroUsize::get);
+        self.threads.map_or(cores, |asked| asked.get().min(cores))
+    }
+
     /// Returns whether progress may be shown at all.
     #[must_use]
     pub(crate) fn shows_progress(&self) -> bool {

@@ -55,10 +55,7 @@ impl Workers {
         points: usize,
         stop: StopRequest,
     ) -> Result<Self, ComputeError> {
-        let cores = match options.threads {
-            Some(threads) => threads.get(),
-            None => thread::available_parallelism().map_or(1, usize::from),
-        };
+        let cores = options.cores();
         let count = cores.min(points).max(1);
         let threads = (cores / count).max(1);
         Ok(Self { program: program()?, count, threads, cache: options.cache_in(folder), stop })
