@@ -1,6 +1,7 @@
 //! What is simulated: structure and bearing of a case, at rest where they start, and what of them a run models.
 
 use super::bearing::{contacts_of, setup_of};
+use super::contact_damping::PressedBall;
 use super::contacts::accept_contacts;
 use super::damping::{damping, refuse_structural_damping};
 use super::doubts;
@@ -8,7 +9,7 @@ use super::start::starts_in_damage;
 use super::structure::{CoupledStructure, needed_modes};
 use crate::app::case::RunCase;
 use crate::app::error::ComputeError;
-use crate::bearing::RaceContacts;
+use crate::bearing::{ContactStiffness, RaceContacts};
 use crate::fe::reduction::frf::ModalDamping;
 use crate::numerics::Watch;
 use crate::numerics::ode::{Method, State};
@@ -92,7 +93,21 @@ impl Scene {
         accept_contacts(&setup, &contacts, &equilibrium)?;
         let mut doubts = doubts(case, stage.bodies.mesh_and_model(), Some((&setup, &equilibrium)))?;
         doubts.extend(starts_in_damage(&setup, start));
-        Ok(Self { doubts, stage, setup, contacts, damping: damping(case)?, start, equilibrium })
+        let mut scene = Self { doubts, stage, setup, contacts, damping: damping(case)?, start, equilibrium };
+        scene.doubts.extend(scene.heavy_damping(run.transient.end - start));
+        Ok(scene)
+    }
+
+    /// The most loaded ball at rest with these stiffnesses of the contacts; `None` where none is loaded.
+    pub(crate) fn pressed_ball(&self, stiffness: &ContactStiffness) -> Option<PressedBall> {
+        let loads = self.equilibrium.balls.iter().map(|ball| [ball.inner, ball.outer]);
+        PressedBall::of([stiffness.inner(), stiffness.outer()], self.setup.geometry.ball_mass(), loads)
+    }
+
+    /// That contact damping makes a run of so many seconds slow.
+    pub(crate) fn heavy_damping(&self, duration: f64) -> Option<String> {
+        let ball = self.pressed_ball(&self.setup.stiffness)?;
+        ball.doubt("bearing.contact_damping", self.setup.contact_damping, duration)
     }
 
     /// The scene in a model's coordinates.

@@ -1,6 +1,7 @@
 //! A rigid shaft in its bearings in their housing, at rest where a run in space starts.
 
 use super::bearing::{defects, slip, speed, stiffness};
+use super::contact_damping::PressedBall;
 use super::damping::{damping, refuse_structural_damping};
 use super::doubts::doubts;
 use super::machine_checks::{
@@ -128,7 +129,20 @@ impl MachineScene {
                 Ok(life) => scene.doubts.extend(life.doubt().map(|doubt| name + &doubt)),
             }
         }
+        scene.doubts.extend(scene.heavy_damping(&run.seats, end - start));
         Ok(scene)
+    }
+
+    /// That contact damping makes a run of so many seconds slow, for each bearing of which that is so.
+    pub(crate) fn heavy_damping(&self, seats: &[case::Seat<'_>], duration: f64) -> Vec<String> {
+        let bearings = seats.iter().zip(&self.setup.bearings).zip(&self.equilibrium.bearings);
+        let told = bearings.filter_map(|((seat, own), balls)| {
+            let law = own.bearing.law();
+            let stiffness = [&law.inner, &law.outer].map(|contact| contact.stiffness.at(1.0)[0]);
+            let ball = PressedBall::of(stiffness, law.mass, balls.iter().map(|ball| ball.load))?;
+            ball.doubt(&seat.key("bearing.contact_damping"), own.contact_damping, duration)
+        });
+        told.collect()
     }
 
     /// The same with a bearing whose grooves are whole.

@@ -8,6 +8,7 @@ pub(crate) mod at_rest;
 pub(crate) mod bearing;
 mod centres;
 pub(crate) mod condensed;
+pub(crate) mod contact_damping;
 pub(crate) mod contacts;
 pub(crate) mod damping;
 mod deck;

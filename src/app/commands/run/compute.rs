@@ -99,6 +99,7 @@ fn run_in_plane<C: Checkpoints>(
 ) -> Result<RunResult<C::Record>, ComputeError> {
     let (case, asked) = (run.case, run.transient);
     let mut scene = Scene::build(run, watch)?;
+    told_first(scene.heavy_damping(asked.end - asked.start), watch);
     let statics = Statics::compute(&scene.stage.structure, &scene.setup, asked.start)?;
     watch.stage("linearise");
     let loaded = LoadedModes::at(&scene.stage.structure, &scene.stage.modes, &scene.setup, &scene.equilibrium)?;
@@ -116,6 +117,11 @@ fn run_in_plane<C: Checkpoints>(
     Ok(RunResult::analysed(case, machine, BearingModel::in_plane(), choice, horizon, simulation))
 }
 
+/// Tells why a run takes long before it does.
+fn told_first(doubts: impl IntoIterator<Item = String>, watch: &impl Watch) {
+    doubts.into_iter().for_each(|doubt| watch.note(&format!("warning: {doubt}")));
+}
+
 fn run_in_space<C: Checkpoints>(
     spatial: &SpatialCase<'_>,
     asked: &Transient,
@@ -124,6 +130,7 @@ fn run_in_space<C: Checkpoints>(
 ) -> Result<RunResult<C::Record>, ComputeError> {
     let case = spatial.case;
     let scene = MachineScene::build(spatial, [asked.start, asked.end], watch)?;
+    told_first(scene.heavy_damping(&spatial.seats, asked.end - asked.start), watch);
     let equilibria = scene.equilibria()?;
     watch.stage("linearise");
     let loaded = scene.loaded_modes()?;
@@ -334,6 +341,24 @@ mod tests {
     fn smooth(set: &[&str]) -> RunResult {
         let set = [&["transient.end=1e-3", "transient.modes=7"], set].concat();
         compute_run(&Case::example("scenes/smooth", &set), &Unwatched).unwrap()
+    }
+
+    #[test]
+    fn an_error_as_large_as_the_signals_is_told_in_the_place_of_a_horizon() {
+        let mut result = smooth(&[]);
+        let told = |result: &mut RunResult, error: f64| {
+            result.choice.estimated_error = Some(error);
+            result.estimate_sentence()
+        };
+        let head = |error: &str| {
+            format!("estimated error of the signals in the band: {error} of their RMS (target 0.010, missed), ")
+        };
+        assert_eq!(
+            told(&mut result, 1.0),
+            head("1.0") + "as large as the signals: compare spectra and verdicts, not samples"
+        );
+        result.horizon = None;
+        assert_eq!(told(&mut result, 0.99), head("0.99") + "while nearby solutions stay together");
     }
 
     /// Relative to what is expected, root mean square.

@@ -196,6 +196,11 @@ fn what_is_on_disk_is_what_would_be_in_memory() {
     let mut unfinished = UnfinishedRun::resume(&path, identity()).unwrap();
     let again = compute_kept_run(&case, &Unwatched, &mut unfinished).unwrap();
     assert_eq!(windows(&again.windows), windows(&in_memory.windows));
+    // the times of all parts add up
+    let [first, then] = [&on_disk, &again].map(|result| &result.simulation);
+    assert!(first.before_s <= 0.0 && first.stepping_s > 0.0);
+    assert!(then.before_s > 0.5 * first.stepping_s && then.before_s <= first.stepping_s, "{}", then.before_s);
+    assert!(then.stepping_s >= then.before_s);
     unfinished.remove().unwrap();
     assert!(!path.exists());
     let error = UnfinishedRun::resume(&path, identity()).unwrap_err();

@@ -8,8 +8,9 @@ use crate::app::case::{Case, Defect, Load};
 use crate::app::commands::run::choice::perturbation::perturb;
 use crate::app::error::ComputeError;
 use crate::app::scene::bearing::setup_of;
+use crate::app::scene::contact_damping::PressedBall;
 use crate::app::scene::{RunModel, Scene};
-use crate::bearing::{ContactStiffness, SpeedKnot};
+use crate::bearing::SpeedKnot;
 use crate::fe::reduction::frf::ModalDamping;
 use crate::numerics::ode::{Integration, Method, NoRecord, Schedule, State, TransientError};
 use crate::report::significant;
@@ -176,7 +177,8 @@ impl Condition {
                 bearing.stiffness = case::ContactStiffness::Given { inner, outer };
             }
             (Self::ContactDamping(ratio), _, Some(bearing)) => {
-                bearing.contact_damping = ratio * critical(stiffness, scene);
+                let ball = scene.pressed_ball(stiffness);
+                bearing.contact_damping = ratio * ball.map_or(0.0, PressedBall::critical);
             }
             _ => {}
         }
@@ -205,22 +207,6 @@ fn load_by(shaft: &mut case::Shaft, factor: f64) {
     }
     let weight = shaft.gravity.map(|g| (factor - 1.0) * shaft.mass * g);
     shaft.loads.push(Load::Constant(weight));
-}
-
-/// Contact damping (s/m) by which the most loaded ball is critically damped between its contacts: with
-/// `F = k delta^(3/2) (1 + c delta')` the damper is `c F`, and `2 sqrt(k' m)` is critical with `k' = 3/2 k^(2/3) F^(1/3)`.
-fn critical(stiffness: &ContactStiffness, scene: &Scene) -> f64 {
-    let balls = scene.equilibrium.balls.iter();
-    let of_ball = |inner: f64, outer: f64| {
-        let tangent = |k: f64, force: f64| 1.5 * k.cbrt().powi(2) * force.cbrt();
-        let spring = tangent(stiffness.inner(), inner) + tangent(stiffness.outer(), outer);
-        2.0 * (spring * scene.setup.geometry.ball_mass()).sqrt() / (inner + outer)
-    };
-    balls
-        .map(|ball| (ball.inner, ball.outer))
-        .max_by(|a, b| (a.0 + a.1).total_cmp(&(b.0 + b.1)))
-        .filter(|(inner, outer)| inner + outer > 0.0)
-        .map_or(0.0, |(inner, outer)| of_ball(inner, outer))
 }
 
 /// Without digits that say nothing.
