@@ -253,6 +253,7 @@ fn merge(
     let parquet = folder.path.join("manifest.parquet");
     write_parquet(&parquet, &table.to_parquet())?;
     let (path, result) = folder.write_json("manifest.json", &manifest)?;
+    warn(DatasetPlan::untrusted(&manifest).as_slice(), options);
     warn(plan.inaccurate(&manifest).as_slice(), options);
     let files = manifest.files.iter().map(|file| folder.path.join(&file.path));
     Ok(Outcome {

@@ -172,6 +172,8 @@ impl DatasetPlan {
                 record.clean_rms = Some(recorded.clean_rms);
                 record.clipped = Some(recorded.clipped);
                 record.sha256 = Some(hex(digest));
+                record.reason = record.reason.take().or_else(|| record.distrust());
+                record.trusted = record.reason.is_none();
                 Ok(Computed { record, samples: Some(recorded.samples) })
             }
             Ok(Err(reason)) => {

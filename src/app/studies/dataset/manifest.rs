@@ -27,6 +27,8 @@ pub struct SignalRecord {
     pub reason: Option<String>,
     /// "none", "outer", "inner", "ball" or "several".
     pub label: String,
+    /// Whether the samples are there and can be trusted; if not, `reason` says why.
+    pub trusted: bool,
     /// "train", "validation" or "test".
     pub split: String,
     /// Number of its machine, from 0.
@@ -121,6 +123,7 @@ impl SignalRecord {
             row: None,
             reason: None,
             label: signal.specimen.label.name().to_owned(),
+            trusted: false,
             split: DatasetPlan::part(signal.specimen).to_owned(),
             machine: signal.specimen.machine,
             case: plan.case_name(signal.entry),
@@ -150,6 +153,12 @@ impl SignalRecord {
         self.step_s = Some(choice.model.step);
         self.estimated_error = choice.estimated_error;
     }
+
+    /// Why signals that a model made to its end cannot be trusted, if they cannot: an estimated error as large as they are is one reason.
+    pub(super) fn distrust(&self) -> Option<String> {
+        let error = self.estimated_error.filter(|error| *error >= 1.0)?;
+        Some(format!("its estimated error is {} of its RMS, as large as it is", significant(error, 2)))
+    }
 }
 
 impl DatasetPlan {
@@ -157,6 +166,18 @@ impl DatasetPlan {
     fn target_of(&self, signal: &SignalRecord) -> f64 {
         let drawn = signal.drawn.get("accuracy.target").and_then(Value::as_f64);
         drawn.unwrap_or_else(|| self.cases[self.hierarchy.machines[signal.machine].entry].target())
+    }
+
+    /// How many of the signals that are there cannot be trusted, if some cannot.
+    pub(crate) fn untrusted(manifest: &Manifest<'_>) -> Option<String> {
+        let there = || manifest.signals.iter().filter(|signal| signal.file.is_some());
+        let untrusted = there().filter(|signal| !signal.trusted).count();
+        (untrusted > 0).then(|| {
+            format!(
+                "{untrusted} of {} signals cannot be trusted: `trusted` is false of them in the manifest and 0 in the files; leave them out",
+                there().count()
+            )
+        })
     }
 
     /// Why signals that are there are not as accurate as they were to be, if some are not.
@@ -268,11 +289,12 @@ fn text(value: &Value) -> Option<String> {
 }
 
 /// The first columns of the table.
-const FIXED: [&str; 23] = [
+const FIXED: [&str; 24] = [
     "signal",
     "file",
     "row",
     "label",
+    "trusted",
     "split",
     "machine",
     "case",

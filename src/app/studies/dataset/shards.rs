@@ -105,6 +105,7 @@ impl DatasetPlan {
         let place = |word: &str, words: &[&str]| words.iter().position(|other| *other == word).unwrap_or(0);
         let labels = Label::ALL.map(Label::name);
         npz.array("label", &whole(&|record| place(&record.label, &labels)))?;
+        npz.array("trusted", &whole(&|record| usize::from(record.trusted)))?;
         npz.array("split", &whole(&|record| place(&record.split, &Split::PARTS)))?;
         npz.array("signal", &whole(&|record| record.signal))?;
         npz.array("specimen", &whole(&|record| record.specimen))?;
@@ -150,6 +151,7 @@ fn columns(computed: &mut [Computed]) -> Vec<ParquetColumn> {
     let named = [
         ("signal", whole(|record| record.signal)),
         ("label", text(|record| &record.label)),
+        ("trusted", whole(|record| usize::from(record.trusted))),
         ("split", text(|record| &record.split)),
         ("specimen", whole(|record| record.specimen)),
         ("machine", whole(|record| record.machine)),
