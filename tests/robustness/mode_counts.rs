@@ -185,6 +185,23 @@ fn rigid_modes_that_were_not_asked_for_are_said() {
     assert_eq!((&found["rigid_modes"], &found["count_check"]["counted"]), (&1.into(), &6.into()));
 }
 
+/// File, line and key of a count beyond the model.
+#[test]
+fn more_modes_than_degrees_of_freedom_are_refused_at_their_key() {
+    let folder = scratch("too_many_modes");
+    cube(&folder);
+    let text = fs::read_to_string(folder.join("case.toml")).unwrap();
+    let most = 3 * (CELLS + 1).pow(3);
+    fs::write(folder.join("case.toml"), format!("{text}[modes]\ncount = {}\n", most + 1)).unwrap();
+    let output = plummer(&folder, &["modes", "case.toml"]);
+    assert_eq!(output.status.code(), Some(2));
+    let expected = format!(
+        "error: case.toml:6: `modes.count`: found {}, expected at most {most}, as many as the model has\nhelp: ask for fewer, ",
+        most + 1
+    );
+    assert!(errors(&output).contains(&expected), "{}", errors(&output));
+}
+
 /// A short stack, as some batch systems give, is enough for the whole way.
 #[cfg(target_os = "linux")]
 #[test]

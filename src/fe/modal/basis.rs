@@ -211,16 +211,16 @@ impl ModalBasis {
         self.frequencies_hz = self.eigenvalues.iter().map(|&value| hz(value)).collect();
     }
 
-    /// Number of modes of which nothing is known, as their bounds are of the order of the frequencies: round-off of the stiffness hides
+    /// Modes of which nothing is known, as their bounds are of the order of the frequencies: round-off of the stiffness hides
     /// them. Without an elastic mode beside them those are all rigid ones, if there are more than the `free` motions of the model.
-    pub(crate) fn unknown(&self, free: Option<usize>) -> usize {
+    pub(crate) fn unknown(&self, free: Option<usize>) -> Vec<usize> {
         let first = self.frequencies_hz.get(self.rigid_modes).copied();
         let is_unknown = |(mode, (frequency, bound)): (usize, (&f64, &f64))| match first {
             Some(first) => *bound > UNKNOWN * if mode < self.rigid_modes { first } else { *frequency },
             None => free.is_some_and(|free| self.rigid_modes > free),
         };
         let modes = self.frequencies_hz.iter().zip(&self.error_bounds_hz).enumerate();
-        modes.filter(|mode| is_unknown(*mode)).count()
+        modes.filter(|mode| is_unknown(*mode)).map(|(mode, _)| mode).collect()
     }
 
     /// Computes the modes again that the matrices cannot tell from rigid ones, from strain energies that were summed

@@ -3,7 +3,7 @@
 
 use super::comparison::{ComparedFile, FileComparison};
 use super::convergence::{MeshConvergence, MeshSequence, mesh_convergence};
-use crate::app::case::{Case, Linearise, SpatialCase};
+use crate::app::case::{Case, Linearise, Rule, SpatialCase};
 use crate::app::commands::parts::ExpectedMode;
 use crate::app::error::ComputeError;
 use crate::app::scene::contacts::accept_contacts;
@@ -15,7 +15,9 @@ use crate::fe::mesh::Mesh;
 use crate::fe::modal::{FullModes, Mechanisms, ModalSurvey, ModeRange};
 use crate::fe::model::HousingModel;
 use crate::formats::ModeShapes;
+use crate::numerics::linalg::LinalgError;
 use crate::numerics::{Unwatched, Watch};
+use crate::report::significant;
 use crate::system::{BearingSetup, Equilibrium, LoadedModes, LoadedPass, StaticCondition, Statics};
 use schemars::JsonSchema;
 use serde::Serialize;
@@ -94,15 +96,22 @@ impl ModesResult {
         mode_shapes(&self.survey, self.mesh_and_model())
     }
 
-    /// Number of modes of which nothing is known.
-    pub(crate) fn unknown(&self) -> usize {
-        let free = self.survey.mechanisms.as_ref().map(Mechanisms::total);
-        self.survey.basis.unknown(free)
+    /// That nothing is known of some modes, with the largest of their error bounds; `None` if all are known.
+    pub(crate) fn unknown(&self) -> Option<String> {
+        let basis = &self.survey.basis;
+        let unknown = basis.unknown(self.survey.mechanisms.as_ref().map(Mechanisms::total));
+        let largest = unknown.iter().map(|&mode| basis.error_bounds_hz[mode]).reduce(f64::max)?;
+        Some(format!(
+            "{} of {} eigenfrequencies are not known: round-off of the stiffness hides them, with error bounds up to {} Hz",
+            unknown.len(),
+            basis.count(),
+            significant(largest, 2)
+        ))
     }
 
     /// Whether every frequency is known, every expected one was found, and every comparison passes.
     pub(crate) fn passes(&self) -> bool {
-        self.unknown() == 0
+        self.unknown().is_none()
             && self.base.expected.iter().all(|expected| expected.ok)
             && self.comparisons.iter().all(|comparison| comparison.ok)
     }
@@ -177,7 +186,7 @@ fn own_modes(case: &Case, watch: &impl Watch) -> Result<ModesResult, ComputeErro
             stage.bodies
         }
     };
-    let survey = bodies.survey(case.modes.extent, watch)?;
+    let survey = bodies.survey(case.modes.extent, watch).map_err(asked_for(case))?;
     let unloaded_hz = survey.basis.frequencies_hz.clone();
     let base = Reading { unloaded_hz, loaded, ..Reading::default() }.judged(case);
     watch.stage("variants");
@@ -205,11 +214,26 @@ fn own_modes(case: &Case, watch: &impl Watch) -> Result<ModesResult, ComputeErro
 
 fn housing_alone(case: &Case, watch: &impl Watch) -> Result<ModesResult, ComputeError> {
     let AssembledHousing { mesh, model, matrices } = AssembledHousing::of(case, watch)?;
-    let survey = ModalSurvey::of_housing(&mesh, &model, matrices, case.modes.extent, watch)?;
+    let survey = ModalSurvey::of_housing(&mesh, &model, matrices, case.modes.extent, watch)
+        .map_err(|error| asked_for(case)(error.into()))?;
     let unloaded_hz = survey.basis.frequencies_hz.clone();
     let base = Reading { unloaded_hz, ..Reading::default() }.judged(case);
     let doubts = doubts(case, Some((&mesh, &model)), None)?;
     Ok(ModesResult { housing: Some((mesh, model)), ..ModesResult::new(base, survey, doubts) })
+}
+
+/// Names the place of the key that asks for more modes than the model has.
+fn asked_for(case: &Case) -> impl FnOnce(ComputeError) -> ComputeError {
+    move |error| match (case.modes.extent, error) {
+        (ModeRange::Count(count), ComputeError::Linalg(LinalgError::TooManyModes { available, .. })) => {
+            let expected = format!("at most {available}, as many as the model has");
+            let rule = Rule::found(count, &expected).with_help(
+                "ask for fewer, or leave `count` out, which then is 20 or all that there are; a finer mesh has more",
+            );
+            case.broken(&rule.at("modes.count")).into()
+        }
+        (_, error) => error,
+    }
 }
 
 /// What modes are linearised with.
@@ -263,7 +287,8 @@ fn variant_reading(case: &Case) -> Result<Option<Reading>, ComputeError> {
             (stage.bodies, Some(loaded))
         }
     };
-    let full = FullModes::of(bodies.matrices()?, case.modes.extent, None, &Unwatched)?;
+    let full = FullModes::of(bodies.matrices()?, case.modes.extent, None, &Unwatched)
+        .map_err(|error| asked_for(case)(error.into()))?;
     let reading = Reading { unloaded_hz: full.basis.frequencies_hz, loaded, ..Reading::default() };
     Ok(Some(reading.judged(case)))
 }

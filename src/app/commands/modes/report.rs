@@ -98,6 +98,9 @@ fn head(case: &Case, result: &ModesResult, command: &str) -> Report {
         let found = expected.found_hz.map_or_else(|| "none".to_owned(), |hz| format!("{} Hz", significant(hz, 4)));
         report = report.headline(&expected.what, found, Verdict::of(expected.ok));
     }
+    if let Some(unknown) = result.unknown() {
+        report = report.headline("Eigenfrequencies", unknown, Verdict::Bad);
+    }
     report = headlines(report, result);
     let basis = &result.survey.basis;
     let (label, text, verdict) = completeness(basis.count_check);
@@ -253,4 +256,31 @@ fn chart(title: &str, x: Axis, points: &[LoadedPoint], show: impl Fn(f64) -> f64
         }
     }
     plot
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Case, ModesResult, Verdict, modes_report};
+    use crate::app::commands::modes::compute_modes;
+    use crate::numerics::Unwatched;
+
+    #[test]
+    fn modes_that_are_not_known_head_the_page_with_the_largest_bound_of_theirs() {
+        let case = Case::example("tadina2011/healthy", &["modes.count=8", "modes.expected=[]"]);
+        let mut result = compute_modes(&case, &Unwatched).unwrap();
+        let heads = |result: &ModesResult| modes_report(&case, result, "").unwrap().headlines;
+        assert!(result.passes() && heads(&result).iter().all(|head| head.label != "Eigenfrequencies"));
+        let basis = &mut result.survey.basis;
+        let [first, known] = [basis.frequencies_hz[0], basis.frequencies_hz[3]];
+        (basis.error_bounds_hz[0], basis.error_bounds_hz[3]) = (0.2 * first, 0.05 * known);
+        assert!(0.05 * known > 0.2 * first);
+        let expected = "1 of 8 eigenfrequencies are not known: round-off of the stiffness hides them, with error bounds up to 750 Hz";
+        assert_eq!(result.unknown().as_deref(), Some(expected));
+        let head = &heads(&result)[0];
+        assert_eq!(
+            (head.label.as_str(), head.value.as_str(), head.verdict),
+            ("Eigenfrequencies", expected, Verdict::Bad)
+        );
+        assert!(!result.passes());
+    }
 }
