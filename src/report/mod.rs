@@ -52,4 +52,4 @@ pub use spans::{SpanPoint, SpanRow, Spans};
 pub use step_map::{StepMap, StepPanel, StepState};
 pub use svg_drawing::{Circle, Dent, Drawing, Point, Ring, Sensor, Spring};
 pub use table::{Align, Cell, CellLook, Column, Table, Verdict};
-pub(crate) use words::{counted, mass_in_words, size_in_words};
+pub(crate) use words::{counted, mass_in_words, size_in_words, wrapped};

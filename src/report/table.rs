@@ -2,7 +2,11 @@
 
 use serde::{Deserialize, Serialize};
 
+use super::words::wrapped;
 use super::{ReportError, significant, with_unit};
+
+/// Characters of a column that is not made narrower.
+const NARROWEST: usize = 12;
 
 /// Whether something came out as it should. Shown by a mark as well as by colour.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
@@ -183,6 +187,12 @@ impl Table {
 
     /// The table in columns of equal width, two spaces apart; caption first, no line end after the last row.
     pub fn plain(&self) -> String {
+        self.plain_within(usize::MAX)
+    }
+
+    /// The same in lines of at most so many characters, as far as columns of [`NARROWEST`] let it: wide columns have several lines a
+    /// row.
+    pub(crate) fn plain_within(&self, most: usize) -> String {
         let heads = self.columns.iter().map(|column| {
             let unit = column.unit.as_deref().unwrap_or_default();
             with_unit(&column.title, unit)
@@ -190,20 +200,37 @@ impl Table {
         let mut lines = vec![heads.collect::<Vec<_>>()];
         let texts = |row: &Vec<Cell>| row.iter().map(|cell| cell.text.clone()).collect();
         lines.extend(self.rows.iter().map(texts));
-        let widths: Vec<usize> = (0..self.columns.len())
+        let mut widths: Vec<usize> = (0..self.columns.len())
             .map(|place| lines.iter().filter_map(|line| Some(line.get(place)?.chars().count())).max().unwrap_or(0))
             .collect();
+        while widths.iter().map(|width| width + 2).sum::<usize>() > most
+            && let Some(widest) = widths.iter_mut().max().filter(|widest| **widest > NARROWEST)
+        {
+            *widest -= 1;
+        }
         let mut text = self.caption.clone();
         for line in &lines {
-            let mut cells = String::new();
-            for ((cell, width), column) in line.iter().zip(&widths).zip(&self.columns) {
-                cells += &match column.align {
-                    Align::Left => format!("  {cell:<width$}"),
-                    Align::Right => format!("  {cell:>width$}"),
-                };
+            let parts: Vec<Vec<String>> = line
+                .iter()
+                .zip(&widths)
+                .map(
+                    |(cell, width)| {
+                        if cell.chars().count() > *width { wrapped(cell, *width) } else { vec![cell.clone()] }
+                    },
+                )
+                .collect();
+            for place in 0..parts.iter().map(Vec::len).max().unwrap_or(1) {
+                let mut cells = String::new();
+                for ((part, width), column) in parts.iter().zip(&widths).zip(&self.columns) {
+                    let cell = part.get(place).map_or("", String::as_str);
+                    cells += &match column.align {
+                        Align::Left => format!("  {cell:<width$}"),
+                        Align::Right => format!("  {cell:>width$}"),
+                    };
+                }
+                text.push('\n');
+                text += cells.trim_end();
             }
-            text.push('\n');
-            text += cells.trim_end();
         }
         text
     }
@@ -239,6 +266,23 @@ mod tests {
         let error = noted.clone().footnote("one").check().expect_err("must fail");
         assert_eq!(error.to_string(), "table \"Lines\": row 1 points to footnote 2, the table has 1");
         assert!(noted.footnote("one").footnote("two").check().is_ok());
+    }
+
+    #[test]
+    fn wide_columns_have_several_lines_a_row() {
+        let table = Table::new("Why", ["Part", "Reason", "Error"].map(Column::text));
+        let row = |cells: [&str; 3]| cells.map(Cell::text);
+        let table = table.row(row(["step", "eight while a ball passes the shortest defect", "0.01"]));
+        let table = table.row(row(["together", "", "0.02"]));
+        let expected = "Why
+  Part      Reason                 Error
+  step      eight while a ball     0.01
+            passes the shortest
+            defect
+  together                         0.02";
+        assert_eq!(table.plain_within(40), expected);
+        assert_eq!(table.plain_within(10).lines().count(), 8, "as narrow as it becomes");
+        assert_eq!(table.plain_within(100), table.plain());
     }
 
     #[test]

@@ -35,9 +35,35 @@ pub(crate) fn counted(count: usize, what: &str) -> String {
     }
 }
 
+/// Lines of at most so many characters, of a word at least each.
+pub(crate) fn wrapped(text: &str, most: usize) -> Vec<String> {
+    let mut lines = vec![String::new()];
+    for word in text.split_whitespace() {
+        let line = &mut lines[0];
+        if line.is_empty() {
+            line.push_str(word);
+        } else if line.chars().count() + 1 + word.chars().count() <= most {
+            line.push(' ');
+            line.push_str(word);
+        } else {
+            lines.insert(0, word.to_owned());
+        }
+    }
+    lines.reverse();
+    lines
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn lines_are_as_long_as_they_may_be() {
+        assert_eq!(wrapped("one two three", 7), ["one two", "three"]);
+        assert_eq!(wrapped("one two three", 6), ["one", "two", "three"]);
+        assert_eq!(wrapped("one  extraordinary µ-word", 6), ["one", "extraordinary", "µ-word"]);
+        assert_eq!(wrapped("", 6), [""]);
+    }
 
     #[test]
     fn sizes_and_masses_are_said() {

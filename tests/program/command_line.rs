@@ -224,4 +224,29 @@ fn a_model_is_explained_without_a_run() {
         assert!(text.contains(part), "{part}: {text}");
     }
     assert!(!folder.join("out").exists(), "nothing is written");
+    // a warning too
+    let damped = plummer(&folder, &["run", case, "--explain", "--set", "bearing.contact_damping=1e6"]);
+    let damped = String::from_utf8(damped.stdout).unwrap();
+    let told = "warning: bearing.contact_damping is 1e6 s/m, ";
+    assert!(damped.contains(told), "{damped}");
+    for line in text.lines().chain(damped.lines()) {
+        assert!(line.chars().count() <= 100, "{line}");
+    }
+}
+
+#[test]
+fn threads_beyond_the_cores_are_left_out() {
+    let folder = scratch("threads");
+    let case = concat!(env!("CARGO_MANIFEST_DIR"), "/examples/tadina2011/healthy.toml");
+    let output = plummer(&folder, &["modes", case, "--threads", "1024", "--out", "out"]);
+    assert_eq!(output.status.code(), Some(0), "{}", errors(&output));
+    let cores = std::thread::available_parallelism().unwrap();
+    let told =
+        format!("note: --threads 1024 is more than this process has cores, which would take turns: {cores} compute");
+    assert!(errors(&output).contains(&told), "{}", errors(&output));
+    let result = std::fs::read_to_string(folder.join("out/modes.json")).unwrap();
+    let result: serde_json::Value = serde_json::from_str(&result).unwrap();
+    assert_eq!(result["threads"], cores.get());
+    let output = plummer(&folder, &["modes", case, "--threads", "1", "--out", "one"]);
+    assert!(!errors(&output).contains("take turns"), "{}", errors(&output));
 }

@@ -14,7 +14,7 @@ use crate::app::commands::run::{
 };
 use crate::app::error::ComputeError;
 use crate::numerics::ode::{BlowUp, MOST_STEPS_PER_INTERVAL, StepLimit};
-use crate::report::{quantity, significant};
+use crate::report::{quantity, significant, wrapped};
 use std::path::Path;
 use std::time::Duration;
 
@@ -38,13 +38,17 @@ pub(super) fn claim_unfinished(folder: &OutputFolder, force: bool) -> Result<(),
     }
 }
 
+/// Characters of a line of what explains a model.
+const COLUMNS: usize = 100;
+
 /// Says which model the run of a case would take; writes nothing.
 ///
 /// # Errors
 /// [`CliError`] when the input is wrong or there is nothing to start from.
 pub(super) fn explain(job: &Job<'_>) -> Result<Outcome, CliError> {
     let (choice, doubts) = explain_run(job.case, job.progress)?;
-    let lines = std::iter::once(choice.table().plain()).chain(warnings(&doubts));
+    let doubts_told = warnings(&doubts).map(|line| wrapped(&line, COLUMNS - 2).join("\n  "));
+    let lines = std::iter::once(choice.table().plain_within(COLUMNS)).chain(doubts_told);
     Ok(Outcome {
         summary: lines.collect::<Vec<_>>().join("\n"),
         result: json(&choice.summary(&doubts))?,
@@ -195,4 +199,21 @@ fn summary<R: Recording>(case: &Case, result: &RunResult<R>, wall_s: f64) -> Str
     lines.extend(warnings(&result.warnings));
     lines.extend(result.not_analysed.iter().map(|text| format!("warning: not analysed: {text}")));
     lines.join("\n")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::summary;
+    use crate::app::case::Case;
+    use crate::app::commands::run::compute_run;
+    use crate::numerics::Unwatched;
+
+    #[test]
+    fn the_time_before_a_run_was_resumed_counts() {
+        let case = Case::example("scenes/smooth", &["transient.end=1e-3", "transient.modes=7"]);
+        let mut result = compute_run(&case, &Unwatched).unwrap();
+        (result.simulation.before_s, result.simulation.stepping_s) = (200.0, 210.0);
+        let text = summary(&case, &result, 50.0);
+        assert!(text.contains(" s simulated in 210 s, with model, choice and report 250 s: "), "{text}");
+    }
 }

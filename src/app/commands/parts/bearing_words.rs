@@ -7,7 +7,7 @@ use crate::app::scene::race_contacts;
 use crate::bearing::Race;
 use crate::bearing::spatial::Thrust;
 use crate::report::{Fact, given, quantity, significant};
-use crate::signal::diagnosis::{Diagnosis, Fault};
+use crate::signal::diagnosis::{Conclusion, Diagnosis, Fault};
 
 /// Points of a profile that are told one by one.
 const TOLD_POINTS: usize = 6;
@@ -188,17 +188,19 @@ fn missed_by(case: &Case, label: &str, diagnosis: &Diagnosis) -> Option<String> 
         Defect::Measured(profile) => (of_race(profile.on), format!("a measured profile in the {} race", profile.on)),
         Defect::Flat(_) => (Fault::Ball, "a flat on a ball".to_owned()),
     };
+    let judged = |part: &Fault| diagnosis.faults.iter().find(|verdict| verdict.fault == *part);
     let missed = |part: &Fault| {
-        let judged = diagnosis.faults.iter().find(|verdict| verdict.fault == *part);
-        judged.is_some_and(|verdict| verdict.false_alarm.is_some())
+        judged(part).is_some_and(|verdict| verdict.false_alarm.is_some())
             && !diagnosis.named().any(|verdict| verdict.fault == *part)
     };
+    let in_doubt = |part: &Fault| judged(part).is_some_and(|verdict| verdict.conclusion == Conclusion::NotEnough);
     let seats = case.seats();
     let own = seats.iter().filter(|seat| seat.label == label);
     let defects = own.filter_map(|seat| seat.bearing).flat_map(|bearing| &bearing.defects).map(damaged);
-    let mut missed: Vec<String> = defects.filter(|(part, _)| missed(part)).map(|(_, words)| words).collect();
+    let (parts, mut missed): (Vec<Fault>, Vec<String>) = defects.filter(|(part, _)| missed(part)).unzip();
     missed.dedup();
-    let shows = match diagnosis.by_signal_alone.is_empty() {
+    // what is not enough evidence is not nothing
+    let shows = match diagnosis.by_signal_alone.is_empty() && !parts.iter().any(in_doubt) {
         true => "does not show it",
         false => "does not prove it",
     };
@@ -281,7 +283,7 @@ pub(crate) fn speed_words(speed: &Speed) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::signal::diagnosis::{Conclusion, EnvelopeOrderSpectrum, FaultVerdict, SpeedSource};
+    use crate::signal::diagnosis::{EnvelopeOrderSpectrum, FaultVerdict, SpeedSource};
 
     fn diagnosis(conclusion: Conclusion, false_alarm: Option<f64>) -> Diagnosis {
         let (order, amplitude, unit) = (Vec::new(), Vec::new(), String::new());
@@ -307,7 +309,8 @@ mod tests {
         let told = |conclusion, chance| missed_by(&case, "", &diagnosis(conclusion, chance));
         let expected = "the case has a dent in the inner race; the signal does not show it";
         assert_eq!(told(Conclusion::NotSeen, Some(0.5)).as_deref(), Some(expected));
-        assert_eq!(told(Conclusion::NotEnough, Some(1e-2)).as_deref(), Some(expected));
+        let unproved = "the case has a dent in the inner race; the signal does not prove it";
+        assert_eq!(told(Conclusion::NotEnough, Some(4e-11)).as_deref(), Some(unproved));
         assert_eq!(told(Conclusion::Named, Some(1e-9)), None);
         // too short a window says so itself
         assert_eq!(told(Conclusion::NotEnough, None), None);
