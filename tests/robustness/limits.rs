@@ -4,9 +4,11 @@
 //! Conditions: a shell with `ulimit`.
 //! Parameters: 60 to 400 MB of address space, 50 KiB a file.
 
+use std::fs;
 use std::path::Path;
 use std::process::{Command, Output};
 
+use super::grids::{Grids, steps};
 use super::program::{errors, scratch};
 
 /// The healthy scene's run under limits of the shell.
@@ -63,8 +65,35 @@ fn steps_beyond_measure_are_refused() {
 
 #[test]
 fn threads_that_cannot_be_started_are_an_error() {
-    // each thread has a stack of 2 MB
-    let output = limited("threads", "-v 200000", "--threads 500");
-    assert_eq!(output.status.code(), Some(1), "{}", errors(&output));
-    assert!(errors(&output).contains("error: the threads that compute cannot be started"), "{}", errors(&output));
+    // each thread has a stack of 2 MB: of the limits that let the program itself begin, the lowest leave none
+    let outputs = (20..100).map(|megabytes| limited("threads", &format!("-v {}", 1000 * megabytes), "--threads 2"));
+    let text = outputs.map(|output| (output.status.code(), errors(&output)));
+    let mut found = text.filter(|(_, text)| text.contains("error: the threads that compute cannot be started"));
+    assert_eq!(found.next().expect("a limit").0, Some(1));
+}
+
+/// A cube whose factor takes 150 MB, under limits of which some leave it too little; with MUMPS that takes its place.
+#[cfg(not(feature = "mumps"))]
+#[test]
+fn a_factor_beyond_the_limits_of_the_process_is_refused_with_its_size() {
+    let folder = scratch("factor-limits");
+    let mut mesh = Grids::default();
+    let edge = steps(0.0, 0.1, 26);
+    mesh.solid("block", [&edge, &edge, &edge], false);
+    mesh.write(&folder);
+    let housing = "mesh = 'grid.msh'\nlength_unit = 'm'\nparts = [{ group = 'block', material = 'aluminium' }]\n\
+        supports = [{ group = 'block_bottom', fixed = 'all' }]";
+    fs::write(folder.join("case.toml"), format!("[housing]\n{housing}\n[modes]\ncount = 4\n")).unwrap();
+    for (option, words) in [("-v", "process's address space (ulimit -v)"), ("-d", "process's data (ulimit -d)")] {
+        let under = |megabytes: usize| {
+            let program = env!("CARGO_BIN_EXE_plummer");
+            let line =
+                format!("ulimit {option} {}; exec {program} modes case.toml --quiet --threads 1", 1000 * megabytes);
+            Command::new("sh").arg("-c").arg(line).env("RUST_BACKTRACE", "0").current_dir(&folder).output().unwrap()
+        };
+        let refused = (1..40).map(|step| under(40 * step)).find(|output| errors(output).contains(words));
+        let refused = refused.expect("a limit that is too low");
+        assert_eq!(refused.status.code(), Some(1));
+        assert!(errors(&refused).starts_with("error: the factor of a "), "{}", errors(&refused));
+    }
 }
