@@ -93,11 +93,17 @@ fn same(one: &BTreeMap<String, Vec<u8>>, other: &BTreeMap<String, Vec<u8>>) {
     assert!(changed.is_none(), "{:?}", changed.map(|(name, _)| name));
 }
 
-/// The samples of a data set's file, a row each.
-fn signals(path: &Path) -> Vec<Vec<f64>> {
+/// An array of a data set's file, as it is there.
+fn array(path: &Path, name: &str) -> Vec<u8> {
     let mut archive = zip::ZipArchive::new(fs::File::open(path).unwrap()).unwrap();
     let mut bytes = Vec::new();
-    archive.by_name("signals.npy").unwrap().read_to_end(&mut bytes).unwrap();
+    archive.by_name(&format!("{name}.npy")).unwrap().read_to_end(&mut bytes).unwrap();
+    bytes
+}
+
+/// The samples of a data set's file, a row each.
+fn signals(path: &Path) -> Vec<Vec<f64>> {
+    let bytes = array(path, "signals");
     let array = npyz::NpyFile::new(&bytes[..]).unwrap();
     let columns = usize::try_from(array.shape()[1]).unwrap();
     let values: Vec<f64> = array.into_vec::<f32>().unwrap().into_iter().map(f64::from).collect();
@@ -237,18 +243,24 @@ fn a_signal_that_cannot_be_computed_has_its_reason() {
     assert_eq!(code, 1, "{said}");
     let manifest = json(&folder.join("out/manifest.json"));
     let signals_of = manifest["signals"].as_array().unwrap();
-    let (mut there, mut failed, mut inaccurate) = (0, 0, 0);
+    let (mut there, mut failed, mut inaccurate, mut trusted) = (0, 0, 0, Vec::new());
     for signal in signals_of {
         if signal["drawn"]["shaft.mass"].as_f64().unwrap() < 0.0 {
             let reason = signal["reason"].as_str().unwrap();
             assert!(reason.contains("`shaft.mass`: found -1, expected"), "{reason}");
-            assert!(signal["file"].is_null() && signal["sha256"].is_null());
+            assert!(signal["file"].is_null() && signal["sha256"].is_null() && signal["trusted"] == false);
             failed += 1;
         } else {
-            assert!(signal["reason"].is_null(), "{signal}");
             assert_eq!(signal["row"].as_u64(), Some(there));
             there += 1;
-            inaccurate += u64::from(signal["estimated_error"].as_f64().unwrap() > 2.0 * 0.2);
+            let error = signal["estimated_error"].as_f64().unwrap();
+            inaccurate += u64::from(error > 2.0 * 0.2);
+            // as large as the signal
+            let is_trusted = error < 1.0;
+            assert_eq!(signal["trusted"], is_trusted, "{signal}");
+            let reason = signal["reason"].as_str().unwrap_or_default();
+            assert_eq!(reason.starts_with("its estimated error is "), !is_trusted, "{signal}");
+            trusted.push(i64::from(is_trusted));
         }
     }
     assert!(there > 0 && failed > 0 && inaccurate > 0);
@@ -256,6 +268,13 @@ fn a_signal_that_cannot_be_computed_has_its_reason() {
         format!("warning: {inaccurate} of {there} signals miss accuracy.target by more than twice (estimated errors");
     assert!(said.matches(&told).count() == 1 && !said.contains("largest estimated error"), "{said}");
     assert!(said.contains(&format!("{failed} of 8 signals are not there")), "{said}");
+    let untrusted = trusted.iter().filter(|trusted| **trusted == 0).count();
+    assert!(
+        untrusted > 0 && said.contains(&format!("warning: {untrusted} of {there} signals cannot be trusted: ")),
+        "{said}"
+    );
+    let in_file = array(&folder.join("out/signals-00000.npz"), "trusted");
+    assert_eq!(npyz::NpyFile::new(&in_file[..]).unwrap().into_vec::<i64>().unwrap(), trusted);
     assert_eq!(signals(&folder.join("out/signals-00000.npz")).len() as u64, there);
     let csv = fs::read_to_string(folder.join("out/manifest.csv")).unwrap();
     assert_eq!(csv.lines().count(), 9);
@@ -273,7 +292,8 @@ fn a_signal_that_cannot_be_computed_has_its_reason() {
             (false, true) => "m/s^2: 32 bits hold 1.2e-38 to 3.4e38",
             (false, false) => "",
         };
-        let reason = signal["reason"].as_str().unwrap_or_default();
+        // of those that are there it is the estimated error
+        let reason = signal["reason"].as_str().filter(|_| signal["file"].is_null()).unwrap_or_default();
         assert!(reason.contains(expected) && reason.is_empty() == expected.is_empty(), "{signal}");
         assert_eq!(signal["file"].is_null(), !expected.is_empty(), "{signal}");
         seen.insert(expected);
