@@ -17,8 +17,8 @@ use multiversion::multiversion;
 use multiversion::target::target_cfg_f;
 use std::sync::Mutex;
 
-/// Rows that are handled at once on the way forward.
-const TILE: usize = 4;
+/// Rows that are handled at once.
+const TILE: usize = 8;
 
 /// A row of a block of `L` right-hand sides.
 pub(super) type Row<T, const L: usize> = [T; L];
@@ -135,53 +135,25 @@ impl<'a, T: Precision> Panel<'a, T> {
                 add::<T, L, FUSED>(&mut own[i], square[j][i], &minus[j]);
             }
         }
-        let entries = self.part::<J>(first, first + J);
-        let entries = entries.map(|column| &column[..rest.len()]);
-        // a few rows at once: what is subtracted is loaded once for all of them
-        let (tiles, last) = rest.as_chunks_mut::<TILE>();
-        for (tile, rows) in tiles.iter_mut().enumerate() {
-            let mut sums = *rows;
-            for j in 0..J {
-                for (i, sum) in sums.iter_mut().enumerate() {
-                    add::<T, L, FUSED>(sum, entries[j][TILE * tile + i], &minus[j]);
-                }
-            }
-            *rows = sums;
-        }
-        for (i, row) in last.iter_mut().enumerate() {
-            for j in 0..J {
-                add::<T, L, FUSED>(row, entries[j][TILE * tiles.len() + i], &minus[j]);
-            }
-        }
+        subtract::<T, L, J>(&self.part(first, first + J), &minus, rest);
     }
 
-    /// Solves for the first `J` rows of a group when those that follow are known. Sums run over the rows below the group
-    /// first and those in it then, so that they do not depend on `J`.
+    /// Solves for `J` rows when those that follow are known; `R` of these are taken at once.
     #[inline(always)]
-    fn backward<const L: usize, const J: usize, const FUSED: bool>(
+    fn backward<const L: usize, const J: usize, const R: usize, const FUSED: bool>(
         &self,
         first: usize,
-        group: usize,
         work: &mut [Row<T, L>],
     ) {
         let unit = self.pivots.is_some();
-        let (own, below) = work[first..].split_at_mut(J);
-        let (near, rest) = below.split_at(group - J);
-        let entries = self.part::<J>(first, first + group);
-        let entries = entries.map(|column| &column[..rest.len()]);
+        let (own, rest) = work[first..].split_at_mut(J);
+        let columns = self.part(first, first + J);
         let mut sums = [[T::default(); L]; J];
-        for (i, row) in rest.iter().enumerate() {
-            for j in 0..J {
-                add::<T, L, FUSED>(&mut sums[j], entries[j][i], row);
-            }
-        }
+        add_products::<T, L, J, R>(&columns, rest, &mut sums);
         let square = self.part::<J>(first, first);
         for j in (0..J).rev() {
             for i in j + 1..J {
                 add::<T, L, FUSED>(&mut sums[j], square[j][i], &own[i]);
-            }
-            for (i, row) in near.iter().enumerate() {
-                add::<T, L, FUSED>(&mut sums[j], square[j][J + i], row);
             }
             own[j] = std::array::from_fn(|lane| own[j][lane] - sums[j][lane]);
             if !unit {
@@ -369,15 +341,12 @@ impl<'a, T: Precision> Triangles<'a, T> {
                     for work in work.chunks_exact_mut(rows) {
                         let work = &mut work[from..];
                         match taken {
-                            8 if L <= T::REGISTER => panel.backward::<L, 8, FUSED>(left, 8, work),
-                            // half of them have their sums in registers
-                            8 => {
-                                panel.backward::<L, 4, FUSED>(left + 4, 4, work);
-                                panel.backward::<L, 4, FUSED>(left, 8, work);
-                            }
-                            4 => panel.backward::<L, 4, FUSED>(left, 4, work),
-                            2 => panel.backward::<L, 2, FUSED>(left, 2, work),
-                            _ => panel.backward::<L, 1, FUSED>(left, 1, work),
+                            8 if L <= 8 => panel.backward::<L, 8, TILE, FUSED>(left, work),
+                            // a loop twice as long would not be unrolled, and its sums not stay in registers
+                            8 => panel.backward::<L, 8, 4, FUSED>(left, work),
+                            4 => panel.backward::<L, 4, TILE, FUSED>(left, work),
+                            2 => panel.backward::<L, 2, TILE, FUSED>(left, work),
+                            _ => panel.backward::<L, 1, TILE, FUSED>(left, work),
                         }
                     }
                 }
@@ -402,6 +371,90 @@ impl<'a, T: Precision> Triangles<'a, T> {
             }
         }
     }
+}
+
+/// `rows += columns minus^T` for `J` columns. It is a function of its own so that factors and sums stay in registers, as in the next one.
+#[multiversion(targets("x86_64+avx512f+avx512vl+avx2+fma", "x86_64+avx2+fma", "aarch64+neon"), dispatcher = "direct")]
+#[inline(never)]
+fn subtract<T: Precision, const L: usize, const J: usize>(
+    columns: &[&[T]; J],
+    minus: &[Row<T, L>; J],
+    rows: &mut [Row<T, L>],
+) {
+    if target_cfg_f!(any(target_feature = "fma", target_feature = "neon")) {
+        subtract_by::<T, L, J, true>(columns, minus, rows);
+    } else {
+        subtract_by::<T, L, J, false>(columns, minus, rows);
+    }
+}
+
+#[inline(always)]
+fn subtract_by<T: Precision, const L: usize, const J: usize, const FUSED: bool>(
+    columns: &[&[T]; J],
+    minus: &[Row<T, L>; J],
+    rows: &mut [Row<T, L>],
+) {
+    let minus = *minus;
+    let (tiles, last) = rows.as_chunks_mut::<TILE>();
+    let done = TILE * tiles.len();
+    // slices of known length need no checks
+    let entries = columns.map(|column| &column.as_chunks::<TILE>().0[..tiles.len()]);
+    for (index, rows) in tiles.iter_mut().enumerate() {
+        let entries: [&[T; TILE]; J] = std::array::from_fn(|j| &entries[j][index]);
+        for (i, row) in rows.iter_mut().enumerate() {
+            let mut sum = *row;
+            for j in 0..J {
+                add::<T, L, FUSED>(&mut sum, entries[j][i], &minus[j]);
+            }
+            *row = sum;
+        }
+    }
+    for (i, row) in last.iter_mut().enumerate() {
+        for j in 0..J {
+            add::<T, L, FUSED>(row, columns[j][done + i], &minus[j]);
+        }
+    }
+}
+
+/// `sums += columns^T rows` for `J` columns, `R` rows at once.
+#[multiversion(targets("x86_64+avx512f+avx512vl+avx2+fma", "x86_64+avx2+fma", "aarch64+neon"), dispatcher = "direct")]
+#[inline(never)]
+fn add_products<T: Precision, const L: usize, const J: usize, const R: usize>(
+    columns: &[&[T]; J],
+    rows: &[Row<T, L>],
+    sums: &mut [Row<T, L>; J],
+) {
+    if target_cfg_f!(any(target_feature = "fma", target_feature = "neon")) {
+        add_products_by::<T, L, J, R, true>(columns, rows, sums);
+    } else {
+        add_products_by::<T, L, J, R, false>(columns, rows, sums);
+    }
+}
+
+#[inline(always)]
+fn add_products_by<T: Precision, const L: usize, const J: usize, const R: usize, const FUSED: bool>(
+    columns: &[&[T]; J],
+    rows: &[Row<T, L>],
+    to: &mut [Row<T, L>; J],
+) {
+    let mut sums = *to;
+    let (tiles, last) = rows.as_chunks::<R>();
+    let done = R * tiles.len();
+    let entries = columns.map(|column| &column.as_chunks::<R>().0[..tiles.len()]);
+    for (index, rows) in tiles.iter().enumerate() {
+        let entries: [&[T; R]; J] = std::array::from_fn(|j| &entries[j][index]);
+        for (i, row) in rows.iter().enumerate() {
+            for j in 0..J {
+                add::<T, L, FUSED>(&mut sums[j], entries[j][i], row);
+            }
+        }
+    }
+    for (i, row) in last.iter().enumerate() {
+        for j in 0..J {
+            add::<T, L, FUSED>(&mut sums[j], columns[j][done + i], row);
+        }
+    }
+    *to = sums;
 }
 
 /// How many of the columns left are taken at once: a power of two.
