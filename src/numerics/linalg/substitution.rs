@@ -11,17 +11,12 @@
 //! nodes and the separators above them alone (Gilbert, SIAM J. Matrix Anal. Appl. 15 (1994) 62-79).
 
 use super::precision::Precision;
+use super::rows::{Row, TILE, add, products, subtract};
 use super::symbolic::Symbolic;
 use super::tree::lock;
 use multiversion::multiversion;
 use multiversion::target::target_cfg_f;
 use std::sync::Mutex;
-
-/// Rows that are handled at once.
-const TILE: usize = 8;
-
-/// A row of a block of `L` right-hand sides.
-pub(super) type Row<T, const L: usize> = [T; L];
 
 /// B of `L B L^T`, block-diagonal.
 pub(super) struct Pivoting<'a, T> {
@@ -147,9 +142,7 @@ impl<'a, T: Precision> Panel<'a, T> {
     ) {
         let unit = self.pivots.is_some();
         let (own, rest) = work[first..].split_at_mut(J);
-        let columns = self.part(first, first + J);
-        let mut sums = [[T::default(); L]; J];
-        add_products::<T, L, J, R>(&columns, rest, &mut sums);
+        let mut sums = products::<T, L, J, R>(&self.part(first, first + J), rest);
         let square = self.part::<J>(first, first);
         for j in (0..J).rev() {
             for i in j + 1..J {
@@ -373,90 +366,6 @@ impl<'a, T: Precision> Triangles<'a, T> {
     }
 }
 
-/// `rows += columns minus^T` for `J` columns. It is a function of its own so that factors and sums stay in registers, as in the next one.
-#[multiversion(targets("x86_64+avx512f+avx512vl+avx2+fma", "x86_64+avx2+fma", "aarch64+neon"), dispatcher = "direct")]
-#[inline(never)]
-fn subtract<T: Precision, const L: usize, const J: usize>(
-    columns: &[&[T]; J],
-    minus: &[Row<T, L>; J],
-    rows: &mut [Row<T, L>],
-) {
-    if target_cfg_f!(any(target_feature = "fma", target_feature = "neon")) {
-        subtract_by::<T, L, J, true>(columns, minus, rows);
-    } else {
-        subtract_by::<T, L, J, false>(columns, minus, rows);
-    }
-}
-
-#[inline(always)]
-fn subtract_by<T: Precision, const L: usize, const J: usize, const FUSED: bool>(
-    columns: &[&[T]; J],
-    minus: &[Row<T, L>; J],
-    rows: &mut [Row<T, L>],
-) {
-    let minus = *minus;
-    let (tiles, last) = rows.as_chunks_mut::<TILE>();
-    let done = TILE * tiles.len();
-    // slices of known length need no checks
-    let entries = columns.map(|column| &column.as_chunks::<TILE>().0[..tiles.len()]);
-    for (index, rows) in tiles.iter_mut().enumerate() {
-        let entries: [&[T; TILE]; J] = std::array::from_fn(|j| &entries[j][index]);
-        for (i, row) in rows.iter_mut().enumerate() {
-            let mut sum = *row;
-            for j in 0..J {
-                add::<T, L, FUSED>(&mut sum, entries[j][i], &minus[j]);
-            }
-            *row = sum;
-        }
-    }
-    for (i, row) in last.iter_mut().enumerate() {
-        for j in 0..J {
-            add::<T, L, FUSED>(row, columns[j][done + i], &minus[j]);
-        }
-    }
-}
-
-/// `sums += columns^T rows` for `J` columns, `R` rows at once.
-#[multiversion(targets("x86_64+avx512f+avx512vl+avx2+fma", "x86_64+avx2+fma", "aarch64+neon"), dispatcher = "direct")]
-#[inline(never)]
-fn add_products<T: Precision, const L: usize, const J: usize, const R: usize>(
-    columns: &[&[T]; J],
-    rows: &[Row<T, L>],
-    sums: &mut [Row<T, L>; J],
-) {
-    if target_cfg_f!(any(target_feature = "fma", target_feature = "neon")) {
-        add_products_by::<T, L, J, R, true>(columns, rows, sums);
-    } else {
-        add_products_by::<T, L, J, R, false>(columns, rows, sums);
-    }
-}
-
-#[inline(always)]
-fn add_products_by<T: Precision, const L: usize, const J: usize, const R: usize, const FUSED: bool>(
-    columns: &[&[T]; J],
-    rows: &[Row<T, L>],
-    to: &mut [Row<T, L>; J],
-) {
-    let mut sums = *to;
-    let (tiles, last) = rows.as_chunks::<R>();
-    let done = R * tiles.len();
-    let entries = columns.map(|column| &column.as_chunks::<R>().0[..tiles.len()]);
-    for (index, rows) in tiles.iter().enumerate() {
-        let entries: [&[T; R]; J] = std::array::from_fn(|j| &entries[j][index]);
-        for (i, row) in rows.iter().enumerate() {
-            for j in 0..J {
-                add::<T, L, FUSED>(&mut sums[j], entries[j][i], row);
-            }
-        }
-    }
-    for (i, row) in last.iter().enumerate() {
-        for j in 0..J {
-            add::<T, L, FUSED>(&mut sums[j], columns[j][done + i], row);
-        }
-    }
-    *to = sums;
-}
-
 /// How many of the columns left are taken at once: a power of two.
 fn step(left: usize) -> usize {
     match left {
@@ -464,14 +373,6 @@ fn step(left: usize) -> usize {
         4.. => 4,
         2.. => 2,
         _ => 1,
-    }
-}
-
-/// `to + factor row` in place.
-#[inline(always)]
-fn add<T: Precision, const L: usize, const FUSED: bool>(to: &mut Row<T, L>, factor: T, row: &Row<T, L>) {
-    for lane in 0..L {
-        to[lane] = if FUSED { factor.fused(row[lane], to[lane]) } else { factor * row[lane] + to[lane] };
     }
 }
 
