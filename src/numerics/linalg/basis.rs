@@ -23,6 +23,9 @@ const NEARLY_DEPENDENT: f64 = 1e-6;
 /// they grew threefold from block to block, and 1000 equal bodies got motions below their lowest.
 const MOSTLY_INSIDE: f64 = std::f64::consts::FRAC_1_SQRT_2;
 
+/// Part of a new vector that a projection takes away, below which its product with M stays what it was: round-off of the product.
+const UNCHANGED: f64 = 1e-14;
+
 /// Columns of zeros in memory that the system gives when it is written first, to the thread that writes.
 #[derive(Debug)]
 pub(super) struct Columns {
@@ -109,16 +112,19 @@ impl<'p> Basis<'p> {
         Ok(added)
     }
 
-    /// Takes from unit vectors `w` what lies in the basis; returns the length that is left of the shortest.
+    /// Takes from vectors `w` what lies in the basis; returns the smallest part of a length that is left.
     fn project(&self, mut w: MatMut<'_, f64>, product: MatMut<'_, f64>) -> f64 {
         if self.size == 0 {
             return 1.0;
         }
+        let lengths = norms(w.rb(), product.rb());
         let along = times(self.vectors().transpose(), product.rb());
         tall_times(w.rb_mut(), Accum::Add, self.vectors(), along.as_ref(), -1.0);
-        self.mass.times_into(w.rb(), product);
-        let left = |column| 1.0 - along.col(column).squared_norm_l2();
-        (0..w.ncols()).map(left).fold(1.0, f64::min).max(0.0).sqrt()
+        let taken = (0..w.ncols()).map(|column| along.col(column).norm_l2() / lengths[column]).fold(0.0, f64::max);
+        if taken > UNCHANGED {
+            self.mass.times_into(w.rb(), product);
+        }
+        (1.0 - taken * taken).max(0.0).sqrt()
     }
 
     /// Replaces the basis by the combinations `V y`, y [size x k] with orthonormal columns.

@@ -175,6 +175,37 @@ fn runs(relative: &[u32]) -> Vec<Run> {
     runs
 }
 
+/// What a child leaves, from one of its columns on.
+struct Arrival<'a, T> {
+    relative: &'a [u32],
+    rest: &'a Rest<T>,
+    /// The runs that do not end before that column; none if they are short.
+    runs: &'a [Run],
+    index: usize,
+}
+
+impl<T: Precision> Arrival<'_, T> {
+    /// Adds the column to that of the front, whose rows begin with `first`.
+    fn add(&mut self, to: &mut [T], first: usize) {
+        let (index, column) = (self.index, self.rest.column(self.index));
+        if self.runs.is_empty() {
+            for (value, &place) in column.iter().zip(&self.relative[index..]) {
+                to[place as usize - first] += *value;
+            }
+            return;
+        }
+        let ended = self.runs.iter().take_while(|run| run.from + run.rows <= index).count();
+        self.runs = &self.runs[ended..];
+        for Run { from, to: place, rows } in self.runs {
+            // the first run begins above the diagonal
+            let cut = index.saturating_sub(*from);
+            let values = &column[from + cut - index..from + rows - index];
+            let to = &mut to[place + cut - first..][..values.len()];
+            to.iter_mut().zip(values).for_each(|(to, value)| *to += *value);
+        }
+    }
+}
+
 impl<T: Precision> Front<'_, T> {
     /// Eliminates the columns; `map`, as long as the matrix's order, is overwritten.
     ///
@@ -224,41 +255,28 @@ impl<T: Precision> Front<'_, T> {
         Ok(rest)
     }
 
-    /// Fills a block from the matrix and the children.
+    /// Fills a block from the matrix and the children, column by column: what is added to is in the first cache.
     fn assemble(&self, block: &mut Block<'_, T>, map: &[u32], runs: &[Vec<Run>]) {
         let (first, rows) = (block.first, block.rows);
-        block.entries.fill(T::default());
         let Supernode { start, columns, .. } = self.supernode;
-        if first < columns {
-            for (index, to) in block.entries.chunks_exact_mut(rows).enumerate() {
-                let column = start + first + index;
-                for (row, value) in self.matrix.column(column) {
+        let arrivals = self.children.iter().zip(runs).map(|((relative, rest), runs)| {
+            let index = relative.partition_point(|&place| (place as usize) < first);
+            Arrival { relative, rest, runs, index }
+        });
+        let mut arrivals: Vec<Arrival<'_, T>> = arrivals.collect();
+        for (column, to) in (first..).zip(block.entries.chunks_exact_mut(rows)) {
+            to.fill(T::default());
+            if column < columns {
+                let scale = self.scale[start + column];
+                for (row, value) in self.matrix.column(start + column) {
                     let place = if row < start + columns { row - start } else { map[row] as usize };
-                    to[place - first] += T::rounded(self.scale[row] * value * self.scale[column]);
+                    to[place - first] += T::rounded(self.scale[row] * value * scale);
                 }
             }
-        }
-        for ((relative, rest), runs) in self.children.iter().zip(runs) {
-            let before = |end: usize| relative.partition_point(|&place| (place as usize) < end);
-            let mut run = 0;
-            for index in before(first)..before(first + block.columns) {
-                let to = &mut block.entries[(relative[index] as usize - first) * rows..][..rows];
-                let column = rest.column(index);
-                if runs.is_empty() {
-                    for (value, &place) in column.iter().zip(&relative[index..]) {
-                        to[place as usize - first] += *value;
-                    }
-                    continue;
-                }
-                while runs[run].from + runs[run].rows <= index {
-                    run += 1;
-                }
-                for Run { from, to: place, rows } in &runs[run..] {
-                    // the first run begins above the diagonal
-                    let cut = index.saturating_sub(*from);
-                    let values = &column[from + cut - index..from + rows - index];
-                    let to = &mut to[place + cut - first..][..values.len()];
-                    to.iter_mut().zip(values).for_each(|(to, value)| *to += *value);
+            for arrival in &mut arrivals {
+                if arrival.relative.get(arrival.index) == Some(&(column as u32)) {
+                    arrival.add(to, first);
+                    arrival.index += 1;
                 }
             }
         }

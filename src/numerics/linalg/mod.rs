@@ -34,6 +34,7 @@ mod ordering;
 mod plan;
 mod precision;
 mod rest;
+mod rows;
 mod sparse;
 mod substitution;
 mod symbolic;

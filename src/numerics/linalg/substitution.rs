@@ -11,17 +11,12 @@
 //! nodes and the separators above them alone (Gilbert, SIAM J. Matrix Anal. Appl. 15 (1994) 62-79).
 
 use super::precision::Precision;
+use super::rows::{Row, TILE, add, products, subtract};
 use super::symbolic::Symbolic;
 use super::tree::lock;
 use multiversion::multiversion;
 use multiversion::target::target_cfg_f;
 use std::sync::Mutex;
-
-/// Rows that are handled at once on the way forward.
-const TILE: usize = 4;
-
-/// A row of a block of `L` right-hand sides.
-pub(super) type Row<T, const L: usize> = [T; L];
 
 /// B of `L B L^T`, block-diagonal.
 pub(super) struct Pivoting<'a, T> {
@@ -135,53 +130,23 @@ impl<'a, T: Precision> Panel<'a, T> {
                 add::<T, L, FUSED>(&mut own[i], square[j][i], &minus[j]);
             }
         }
-        let entries = self.part::<J>(first, first + J);
-        let entries = entries.map(|column| &column[..rest.len()]);
-        // a few rows at once: what is subtracted is loaded once for all of them
-        let (tiles, last) = rest.as_chunks_mut::<TILE>();
-        for (tile, rows) in tiles.iter_mut().enumerate() {
-            let mut sums = *rows;
-            for j in 0..J {
-                for (i, sum) in sums.iter_mut().enumerate() {
-                    add::<T, L, FUSED>(sum, entries[j][TILE * tile + i], &minus[j]);
-                }
-            }
-            *rows = sums;
-        }
-        for (i, row) in last.iter_mut().enumerate() {
-            for j in 0..J {
-                add::<T, L, FUSED>(row, entries[j][TILE * tiles.len() + i], &minus[j]);
-            }
-        }
+        subtract::<T, L, J>(&self.part(first, first + J), &minus, rest);
     }
 
-    /// Solves for the first `J` rows of a group when those that follow are known. Sums run over the rows below the group
-    /// first and those in it then, so that they do not depend on `J`.
+    /// Solves for `J` rows when those that follow are known; `R` of these are taken at once.
     #[inline(always)]
-    fn backward<const L: usize, const J: usize, const FUSED: bool>(
+    fn backward<const L: usize, const J: usize, const R: usize, const FUSED: bool>(
         &self,
         first: usize,
-        group: usize,
         work: &mut [Row<T, L>],
     ) {
         let unit = self.pivots.is_some();
-        let (own, below) = work[first..].split_at_mut(J);
-        let (near, rest) = below.split_at(group - J);
-        let entries = self.part::<J>(first, first + group);
-        let entries = entries.map(|column| &column[..rest.len()]);
-        let mut sums = [[T::default(); L]; J];
-        for (i, row) in rest.iter().enumerate() {
-            for j in 0..J {
-                add::<T, L, FUSED>(&mut sums[j], entries[j][i], row);
-            }
-        }
+        let (own, rest) = work[first..].split_at_mut(J);
+        let mut sums = products::<T, L, J, R>(&self.part(first, first + J), rest);
         let square = self.part::<J>(first, first);
         for j in (0..J).rev() {
             for i in j + 1..J {
                 add::<T, L, FUSED>(&mut sums[j], square[j][i], &own[i]);
-            }
-            for (i, row) in near.iter().enumerate() {
-                add::<T, L, FUSED>(&mut sums[j], square[j][J + i], row);
             }
             own[j] = std::array::from_fn(|lane| own[j][lane] - sums[j][lane]);
             if !unit {
@@ -369,15 +334,12 @@ impl<'a, T: Precision> Triangles<'a, T> {
                     for work in work.chunks_exact_mut(rows) {
                         let work = &mut work[from..];
                         match taken {
-                            8 if L <= T::REGISTER => panel.backward::<L, 8, FUSED>(left, 8, work),
-                            // half of them have their sums in registers
-                            8 => {
-                                panel.backward::<L, 4, FUSED>(left + 4, 4, work);
-                                panel.backward::<L, 4, FUSED>(left, 8, work);
-                            }
-                            4 => panel.backward::<L, 4, FUSED>(left, 4, work),
-                            2 => panel.backward::<L, 2, FUSED>(left, 2, work),
-                            _ => panel.backward::<L, 1, FUSED>(left, 1, work),
+                            8 if L <= 8 => panel.backward::<L, 8, TILE, FUSED>(left, work),
+                            // a loop twice as long would not be unrolled, and its sums not stay in registers
+                            8 => panel.backward::<L, 8, 4, FUSED>(left, work),
+                            4 => panel.backward::<L, 4, TILE, FUSED>(left, work),
+                            2 => panel.backward::<L, 2, TILE, FUSED>(left, work),
+                            _ => panel.backward::<L, 1, TILE, FUSED>(left, work),
                         }
                     }
                 }
@@ -411,14 +373,6 @@ fn step(left: usize) -> usize {
         4.. => 4,
         2.. => 2,
         _ => 1,
-    }
-}
-
-/// `to + factor row` in place.
-#[inline(always)]
-fn add<T: Precision, const L: usize, const FUSED: bool>(to: &mut Row<T, L>, factor: T, row: &Row<T, L>) {
-    for lane in 0..L {
-        to[lane] = if FUSED { factor.fused(row[lane], to[lane]) } else { factor * row[lane] + to[lane] };
     }
 }
 
