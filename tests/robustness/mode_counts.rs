@@ -94,7 +94,7 @@ fn any_number_of_modes_of_a_free_cube() {
     }
     let (code, text) = modes(&folder, "count=1030").unwrap_err();
     assert_eq!(code, Some(2), "{text}");
-    assert!(text.contains("1030 modes asked for, but the model has only 1029"), "{text}");
+    assert!(text.contains("`modes.count`: found 1030, expected at most 1029"), "{text}");
 
     let up_to = |hz: f64| all.iter().filter(|&&mode| mode <= hz).count();
     let found = modes(&folder, "up_to_hz=70000").unwrap();
