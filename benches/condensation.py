@@ -8,7 +8,8 @@ The mesh is tests/data/pedestal_60k.msh (58 794 degrees of freedom), its feet fi
 degrees of freedom; 40 fixed-interface modes. Every figure is of a whole process: plummer reads the mesh, checks the
 superelement, counts the modes and writes its report; the others read matrices of `plummer export --to npz`. SciPy
 factorises by CHOLMOD, solves for the constraint modes, finds the modes by `eigsh` with that factor and forms the reduced
-matrices. Exudyn's `HurtyCraigBampton` forms no reduced matrices. Programs take turns on one thread.
+matrices. Exudyn's `HurtyCraigBampton` forms no reduced matrices. Programs take turns on one thread. CHOLMOD needs OpenBLAS
+(libopenblas0-pthread): with the reference BLAS it takes twice as long.
 """
 
 import argparse
