@@ -3,9 +3,10 @@
     python3 classify.py DATASET MEASURED [--hold-out EXPRESSION] [--plummer PROGRAM]
 
 DATASET is a folder that `plummer dataset` wrote: `signals-*.npz` with `signals` [n x samples], `rate_hz`, `label_names` and
-`split_names`, and a value a signal of `label`, `split`, `speed_hz`, `bpfo_hz`, `bpfi_hz`, `bsf_hz`, `ftf_hz`. MEASURED is a folder with
-`records.csv`: a row a record with `id`, `file` (npz with `signal` and `rate_hz`), `set`, `speed_hz`, the orders `outer`, `inner`,
-`ball` (twice BSF) and `cage`, `truth`, `size_mil` and `grade`. Records whose `id` matches the regular expression are reported apart.
+`split_names`, and a value a signal of `label`, `split`, `trusted`, `speed_hz`, `bpfo_hz`, `bpfi_hz`, `bsf_hz`, `ftf_hz`. MEASURED
+is a folder with `records.csv`: a row a record with `id`, `file` (npz with `signal` and `rate_hz`), `set`, `speed_hz`, the orders
+`outer`, `inner`, `ball` (twice BSF) and `cage`, `truth`, `size_mil` and `grade`. Records whose `id` matches the regular expression
+are reported apart.
 
 The same features and the same classifiers are trained on the simulated signals, and on the measured records of all other specimens. A
 specimen is a damaged part: neither its windows nor the other channel of its recordings are on both sides. With a program the verdicts
@@ -119,8 +120,8 @@ def simulated(folder: pathlib.Path) -> tuple[list[Window], list[Window]]:
             lines = {"outer": data["bpfo_hz"], "inner": data["bpfi_hz"], "ball": 2 * data["bsf_hz"], "cage": data["ftf_hz"]}
             orders = {part: float(line[row]) / speed for part, line in lines.items()}
             label, name = str(data["label_names"][data["label"][row]]), f"{shard.stem}:{row}"
-            if label not in CLASSES:
-                continue  # several parts at once
+            if label not in CLASSES or not data["trusted"][row]:
+                continue  # several parts at once, or an estimated error as large as the signal
             for window in windows(signal, float(data["rate_hz"][0])):
                 train = str(data["split_names"][data["split"][row]]) == "train"
                 both[train].append(Window(features(window, speed, orders), label, name, str(data["specimen"][row]), "simulated"))
