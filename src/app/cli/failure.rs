@@ -4,6 +4,7 @@
 //! program, as does the first where nobody listens, not without saying what is on disk; memory and file sizes that run out, which are
 //! failures like any other.
 
+use super::heap;
 use crate::app::case::CaseError;
 use crate::app::commands::run::unfinished::StopRequest;
 use crate::app::error::ComputeError;
@@ -189,6 +190,7 @@ pub(super) fn fail_at_limits() -> Result<(), CliError> {
         }
         usual(panic);
     }));
+    heap::explain_aborts().map_err(not_caught)?;
     let always = Arc::new(AtomicBool::new(true));
     flag::register_conditional_shutdown(SIGABRT, 1, Arc::clone(&always)).map_err(not_caught)?;
     flag::register(SIGXFSZ, always).map_err(not_caught)?;

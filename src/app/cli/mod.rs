@@ -13,6 +13,8 @@ mod earlier_results;
 mod export;
 mod failure;
 mod frf;
+#[allow(unsafe_code)]
+mod heap;
 mod init;
 mod inspect;
 mod modes;
@@ -68,6 +70,7 @@ pub fn main() -> ExitCode {
 /// signals belong to the program from then on.
 #[must_use]
 pub fn main_of(arguments: Vec<OsString>) -> u8 {
+    heap::keep_freed_memory();
     #[cfg(feature = "mumps-mpi")]
     if crate::numerics::linalg::joined() {
         return 0;

@@ -74,6 +74,8 @@ pub(super) struct Search<'p> {
     pub round_off: f64,
     /// Shift sigma of the factor, 1/s^2.
     pub shift: f64,
+    /// Largest of the last steps of wanted pairs, as an angle.
+    pub largest_step: f64,
     /// Seeds used so far: every new block starts elsewhere.
     started: u64,
     /// Values at which the pursued pairs have converged.
@@ -118,6 +120,7 @@ impl<'p> Search<'p> {
             krylov: krylov_size(pursued),
             round_off: round_off(stiffness, mass),
             shift,
+            largest_step: 0.0,
             started: 0,
             done: vec![None; pursued],
             told,
@@ -266,8 +269,12 @@ impl<'p> Search<'p> {
         let steps = self.steps(&spectrum, &chosen, factor);
         factor.check()?;
         let mut open = Vec::new();
+        self.largest_step = 0.0;
         for (column, &place) in chosen.iter().enumerate() {
             let [length, residual, energy] = steps[column];
+            if place < self.wanted {
+                self.largest_step = self.largest_step.max(length);
+            }
             let floor = self.round_off / (spectrum.values[place] - self.shift).abs();
             let converged = if place < self.wanted {
                 length <= CONVERGED.max(floor)

@@ -147,25 +147,48 @@ impl SymmetricMatrix {
 
     /// `Y = A X` for `X` and `Y` [n x k]. Columns are independent: the result does not depend on the number of threads.
     pub(super) fn times_into(&self, x: MatRef<'_, f64>, mut y: MatMut<'_, f64>) {
-        self.stored_times(&self.values, x, y.rb_mut());
+        self.stored_times(&self.values, |row| row, x, y.rb_mut());
         if let Some(followers) = &self.followers {
             x.par_col_chunks(1).zip(y.par_col_chunks_mut(1)).for_each(|(x, y)| followers.add_times(x, y));
         }
     }
 
-    /// `Y = A X` without followers for other values at the places of those stored.
-    fn stored_times(&self, values: &[f64], x: MatRef<'_, f64>, y: MatMut<'_, f64>) {
+    /// `A X` for `X` [n x k], both with their rows in the order in which `ordering` has them kept.
+    pub(super) fn times_kept(&self, ordering: &Ordering, x: &DenseMatrix) -> DenseMatrix {
+        let mut y = DenseMatrix::zeros(x.nrows(), x.ncols());
+        if self.followers.is_some() {
+            ordering.backward(&self.times(ordering.forward(x).as_ref()), &mut y);
+        } else {
+            self.stored_times(&self.values, |row| ordering.place(row), x.as_ref(), y.as_mut());
+        }
+        y
+    }
+
+    /// `Y = A X` without followers for other values at the places of those stored; `place` is that of a row of X and Y.
+    fn stored_times(
+        &self,
+        values: &[f64],
+        place: impl Fn(usize) -> usize + Sync,
+        x: MatRef<'_, f64>,
+        y: MatMut<'_, f64>,
+    ) {
         // fewer lanes load every entry more often, but no thread idles
         if x.ncols() <= LANES / 2 || rayon::current_num_threads() > x.ncols().div_ceil(LANES) {
-            self.times_by::<{ LANES / 2 }>(values, x, y);
+            self.times_by::<{ LANES / 2 }>(values, place, x, y);
         } else {
-            self.times_by::<LANES>(values, x, y);
+            self.times_by::<LANES>(values, place, x, y);
         }
     }
 
-    fn times_by<const L: usize>(&self, values: &[f64], x: MatRef<'_, f64>, y: MatMut<'_, f64>) {
+    fn times_by<const L: usize>(
+        &self,
+        values: &[f64],
+        place: impl Fn(usize) -> usize + Sync,
+        x: MatRef<'_, f64>,
+        y: MatMut<'_, f64>,
+    ) {
         x.par_col_chunks(L).zip(y.par_col_chunks_mut(L)).for_each(|(x, y)| {
-            SCRATCH.with_borrow_mut(|scratch| self.times_block::<L>(values, x, y, scratch));
+            SCRATCH.with_borrow_mut(|scratch| self.times_block::<L>(values, &place, x, y, scratch));
         });
     }
 
@@ -175,7 +198,7 @@ impl SymmetricMatrix {
         let squared: Vec<f64> = self.values.par_iter().map(|value| value * value).collect();
         let squares = DenseMatrix::from_fn(x.nrows(), x.ncols(), |i, j| x[(i, j)] * x[(i, j)]);
         let mut sums = DenseMatrix::zeros(x.nrows(), x.ncols());
-        self.stored_times(&squared, squares.as_ref(), sums.as_mut());
+        self.stored_times(&squared, |row| row, squares.as_ref(), sums.as_mut());
         let diagonal: Vec<f64> = self.stored_diagonal().into_iter().map(|entry| entry * entry).collect();
         let scatter = |column: usize| -> f64 {
             let rows = squares.col_as_slice(column).iter().zip(sums.col_as_slice(column));
@@ -193,6 +216,7 @@ impl SymmetricMatrix {
     fn times_block<const L: usize>(
         &self,
         values: &[f64],
+        place: impl Fn(usize) -> usize,
         x: MatRef<'_, f64>,
         mut y: MatMut<'_, f64>,
         scratch: &mut Scratch,
@@ -202,21 +226,19 @@ impl SymmetricMatrix {
         product.clear();
         product.resize(self.order() * L, 0.0);
         let (lanes, product) = (lanes.as_chunks_mut::<L>().0, product.as_chunks_mut::<L>().0);
-        for (tile, rows) in lanes.chunks_mut(TILE).enumerate() {
+        for tile in (0..self.order()).step_by(TILE) {
+            let rows = tile..(tile + TILE).min(self.order());
             for lane in 0..x.ncols() {
-                let column = x.col(lane).subrows(TILE * tile, rows.len());
-                for (row, &entry) in rows.iter_mut().zip(column.iter()) {
-                    row[lane] = entry;
-                }
+                let column = x.col(lane).subrows(tile, rows.len());
+                rows.clone().zip(column.iter()).for_each(|(row, &entry)| lanes[place(row)][lane] = entry);
             }
         }
         multiply(&self.offsets, &self.rows, values, lanes, product);
-        for (tile, rows) in product.chunks(TILE).enumerate() {
+        for tile in (0..self.order()).step_by(TILE) {
+            let rows = tile..(tile + TILE).min(self.order());
             for lane in 0..x.ncols() {
-                let column = y.rb_mut().col_mut(lane).subrows_mut(TILE * tile, rows.len());
-                for (entry, row) in column.iter_mut().zip(rows) {
-                    *entry = row[lane];
-                }
+                let column = y.rb_mut().col_mut(lane).subrows_mut(tile, rows.len());
+                rows.clone().zip(column.iter_mut()).for_each(|(row, entry)| *entry = product[place(row)][lane]);
             }
         }
     }

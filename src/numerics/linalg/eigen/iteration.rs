@@ -23,6 +23,13 @@ const CROWDED: usize = 3;
 /// Pairs pursued beyond those wanted: among them a gap is found in which to count.
 pub(super) const BEYOND: usize = 4;
 
+/// Share of the shift's distance from zero below which the last wanted value is too near to the others, seen from the shift.
+const FAR: f64 = 0.1;
+
+/// First correction, as an angle, beyond which it is the same below the whole distance: three to five corrections are usual from
+/// smaller ones, twenty were needed from 0.06.
+const SLOW: f64 = 0.01;
+
 /// Bytes of an entry of a large factor.
 const SINGLE: u64 = 4;
 
@@ -78,26 +85,20 @@ impl EigenProblem {
         told: Told<'_>,
     ) -> Result<Iterated, LinalgError> {
         let started = Instant::now();
-        let (mut shift, mut factor) = self.definite_factor()?;
+        let (shift, mut factor) = self.definite_factor()?;
         times.factor += started.elapsed().as_secs_f64();
         let started = Instant::now();
         let mut search = Search::new(&self.stiffness, &self.mass, shift, [count, beyond], told);
         for _ in 0..rounds {
             search.explore(&factor)?;
         }
-        // a shift far below the wanted values makes all of them look alike; beside a rigid motion it must stay there, or
-        // the factor would be round-off
-        let last = search.value(count - 1)?;
-        if last > FIRM * search.round_off && last < -0.1 * shift {
-            let nearer = self.stiffness.shifted(-last, &self.mass);
-            if let Ok(better) = self.definite(&nearer, false) {
-                (shift, factor) = (-last, Arc::new(better));
-                search.shift = shift;
-                search.explore(&factor)?;
-            }
-        }
+        self.come_nearer(&mut search, &mut factor, count, FAR)?;
         // six digits by now: enough to say where to count, which takes as long as what is left of the iteration
-        let near = search.approach(&factor)?;
+        let mut near = search.approach(&factor)?;
+        if search.largest_step > SLOW && self.come_nearer(&mut search, &mut factor, count, 1.0)? {
+            near = search.approach(&factor)?;
+        }
+        let shift = search.shift;
         let early = widest_gap(&near, count, shift);
         let iteration = || {
             let ritz = search.converge(&factor)?;
@@ -131,6 +132,29 @@ impl EigenProblem {
         }
         times.count += counted.map_or(0.0, |(.., elapsed)| elapsed);
         Ok(Iterated { values, pairs, counted: counted.map(|(value, counted, _)| (value, counted)) })
+    }
+
+    /// Moves the shift of a search for `count` pairs up to their negative if the last of them is nearer to zero than this share of its
+    /// distance: a shift far below the wanted values makes all of them look alike. Beside a rigid motion it stays, or the factor
+    /// would be round-off.
+    fn come_nearer(
+        &self,
+        search: &mut Search<'_>,
+        factor: &mut Arc<Factor>,
+        count: usize,
+        share: f64,
+    ) -> Result<bool, LinalgError> {
+        let last = search.value(count - 1)?;
+        if last <= FIRM * search.round_off || last >= -share * search.shift {
+            return Ok(false);
+        }
+        let Ok(better) = self.definite(&self.stiffness.shifted(-last, &self.mass), false) else {
+            return Ok(false);
+        };
+        *factor = Arc::new(better);
+        search.shift = -last;
+        search.explore(factor)?;
+        Ok(true)
     }
 
     /// Counts close before the crowd of equal eigenvalues that the wanted pairs end in: if no pair is missing there, the lowest

@@ -128,19 +128,12 @@ impl EigenProblem {
 
     /// `K X` for `X` [n x k].
     pub(crate) fn stiffness_times(&self, x: &DenseMatrix) -> DenseMatrix {
-        self.product(&self.stiffness, x)
+        self.stiffness.times_kept(&self.ordering, x)
     }
 
     /// `M X` for `X` [n x k].
     pub(crate) fn mass_times(&self, x: &DenseMatrix) -> DenseMatrix {
-        self.product(&self.mass, x)
-    }
-
-    fn product(&self, a: &SymmetricMatrix, x: &DenseMatrix) -> DenseMatrix {
-        let permuted = a.times(self.ordering.forward(x).as_ref());
-        let mut y = DenseMatrix::zeros(x.nrows(), x.ncols());
-        self.ordering.backward(&permuted, &mut y);
-        y
+        self.mass.times_kept(&self.ordering, x)
     }
 
     /// An error if there is no memory for so many pairs.
