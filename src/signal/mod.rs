@@ -40,6 +40,7 @@ pub use kurtogram::{Kurtogram, KurtogramBand, kurtogram};
 pub use lines::{EnvelopePeak, LINE_TOLERANCE, LineMatch, NamedLine, PeakSearch, envelope_peaks, lines_at, match_line};
 pub use scalogram::{FrequencyAxis, Scalogram, WaveletTransform};
 pub use spectral_kurtosis::{SpectralKurtosis, spectral_kurtosis};
+pub(crate) use spectrum::rms_up_to;
 pub use spectrum::{AmplitudeSpectrum, BandLevel, DEFAULT_BIN_HZ, Peak, amplitude_spectrum, peak_near, third_octaves};
 pub use welch::{PowerScaling, PowerSpectrum, Welch};
 pub(crate) use white_spectrum::{BandEnvelope, RawSpectrum, WhiteSpectrum, running_median};

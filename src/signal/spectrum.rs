@@ -1,10 +1,10 @@
 //! Amplitude spectrum of a stretch of signal, windowed and interpolated by zero-padding.
 //!
-//! Levels in third-octave bands.
+//! Levels in third-octave bands, and up to a frequency.
 //!
 //! Peaks of a spectrum, located between the bins.
 
-use super::fourier::{Forward, MOST_POINTS, fast_length};
+use super::fourier::{Forward, MOST_POINTS, fast_length, forward};
 use super::{SignalError, WindowFunction};
 use crate::numerics::Brief;
 use crate::numerics::series::{TimeSeries, TimeWindow};
@@ -142,6 +142,21 @@ pub fn third_octaves(series: &TimeSeries, from_hz: f64, to_hz: f64) -> Result<Ve
         BandLevel { centre_hz, rms: (squares / spectrum.zero_padding).sqrt() }
     });
     Ok(bands.collect())
+}
+
+/// Root mean square of what a series has from zero up to `to_hz`, by its spectrum without a taper; the mean counts. A line
+/// leaks as [`amplitude_spectrum`] says.
+///
+/// # Errors
+/// [`SignalError`] of the transform.
+pub(crate) fn rms_up_to(series: &TimeSeries, to_hz: f64) -> Result<f64, SignalError> {
+    let samples = series.values().len();
+    let bins = forward(series.values(), samples)?;
+    let bin_hz = 1.0 / (samples as f64 * series.step_s());
+    let within = bins.iter().enumerate().take_while(|(m, _)| *m as f64 * bin_hz <= to_hz);
+    // Parseval: all bins but those at zero and at half the rate stand for two
+    let squares: f64 = within.map(|(m, bin)| if m == 0 || 2 * m == samples { 1.0 } else { 2.0 } * bin.norm_sqr()).sum();
+    Ok(squares.sqrt() / samples as f64)
 }
 
 /// A local maximum of a spectrum.

@@ -3,7 +3,7 @@
 use super::check::BrokenRule;
 use super::decode::Fault;
 use super::error::CaseError;
-use super::tree::{Mark, Node, parse_path};
+use super::tree::{Mark, Node, Step, Value, parse_path};
 use super::{named_bearing, set};
 use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
@@ -89,9 +89,23 @@ impl<'a> Document<'a> {
     /// Turns the decoder's fault into an error with its place.
     pub(super) fn error(&self, fault: Fault) -> CaseError {
         let key = fault.key();
+        let instead = self.instead(&key).filter(|_| fault.after.starts_with(": found several,"));
         // a case requires no key of its root
         let key = if key.is_empty() { "the specification".to_owned() } else { format!("`{key}`") };
         let what = format!("{}{key}{}", fault.before, fault.after);
-        CaseError::at(self.marked(fault.mark), what).with_help(fault.help).with_valid(fault.valid)
+        CaseError::at(self.marked(fault.mark), what).with_help(fault.help.or(instead)).with_valid(fault.valid)
+    }
+
+    /// What to set where an argument adds a key to a table of the file.
+    fn instead(&self, key: &str) -> Option<String> {
+        let steps = parse_path(key)?;
+        let table = steps.iter().try_fold(&self.root, Node::child)?;
+        let Value::Table(entries) = &table.value else { return None };
+        entries.iter().find_map(|(name, entry)| {
+            let Mark::Set(index) = entry.mark else { return None };
+            let (set, typed) = set::split_argument(self.source.set.get(index)?)?;
+            let added = parse_path(set)? == [&steps[..], &[Step::Key(name.clone())]].concat();
+            added.then(|| format!("to replace the whole table: --set '{key}={{ {name} = {typed} }}'"))
+        })
     }
 }

@@ -156,14 +156,23 @@ pub(super) fn housing(case: &Case, model: &HousingModel) -> Vec<String> {
     }
     let mass = mass_of(case, asked, model);
     // materials that no solid is are told by themselves
-    match !materials(case).is_empty() || within(MASSES, mass) || mass <= 0.0 {
-        true => Vec::new(),
-        false => vec![format!(
-            "the housing of {} has a mass of {}: no housing of that size has; check the densities of its materials (kg/m^3)",
-            size_in_words(sides),
-            mass_in_words(mass, 3)
-        )],
+    let doubt = mass_doubt(sides, asked.length_unit, mass).filter(|_| materials(case).is_empty());
+    doubt.into_iter().collect()
+}
+
+/// That a housing with sides of these lengths (m) by its unit is heavier or lighter than any, kg. Few sizes and densities are, so that the
+/// unit is to be checked too.
+fn mass_doubt(sides: [f64; 3], unit: LengthUnit, mass: f64) -> Option<String> {
+    if within(MASSES, mass) || mass <= 0.0 {
+        return None;
     }
+    Some(format!(
+        "the housing is {} by housing.length_unit = \"{}\" and has a mass of {}: none of a rolling bearing is as {}; check the unit and the densities of its materials (kg/m^3)",
+        size_in_words(sides),
+        unit.symbol(),
+        mass_in_words(mass, 3),
+        if mass > MASSES[1] { "heavy" } else { "light" }
+    ))
 }
 
 /// That a mesh with sides of these lengths (m) by its unit is larger or smaller than any housing of a bearing, and which unit it looks
@@ -291,8 +300,18 @@ pub(super) fn contacts(case: &Case, setup: &BearingSetup, hertz: &RaceContacts) 
 
 #[cfg(test)]
 mod tests {
-    use super::{is_solid, size_doubt, unit_of_material};
+    use super::{is_solid, mass_doubt, size_doubt, unit_of_material};
     use crate::numerics::units::LengthUnit;
+
+    /// A plate of aluminium; its mass is right.
+    #[test]
+    fn a_light_housing_may_be_in_another_unit() {
+        let sides = [2e-3, 2e-3, 0.1e-3];
+        let told = mass_doubt(sides, LengthUnit::Millimetre, 8.27e-7).unwrap();
+        let (unit, densities) = (told.find("housing.length_unit = \"mm\""), told.find("densities"));
+        assert!(unit.is_some() && unit < densities && told.contains("is as light"), "{told}");
+        assert_eq!(mass_doubt(sides, LengthUnit::Millimetre, 1.1e-6), None);
+    }
 
     /// Young's modulus in GPa and density in kg/m^3 (Ashby, tables A.3 and A.7, rounded).
     #[test]

@@ -1,8 +1,8 @@
 //! What of a structure is shown: the points that its surface and lines use, near ones near each other in order.
 //!
 //! Thins a surface: points in one cell of a grid become one point (J. Rossignac, P. Borrel, "Multi-resolution 3D
-//! approximations for rendering complex scenes", 1993). The point that stays is one of the mesh, with its own
-//! displacement.
+//! approximations for rendering complex scenes", 1993), as far as edges join them within it: the two faces of a thin wall
+//! stay apart. The point that stays is one of the mesh, with its own displacement.
 
 use super::camera::{Vector, bounds, cross, dot, magnitude, minus, unit};
 use super::view::ModeShapeView;
@@ -168,11 +168,20 @@ impl Surface {
         if self.points.len() <= most {
             return self.clone();
         }
+        // a mesh in more pieces than points may stay loses what keeps them apart
+        self.fitted(most, true).or_else(|| self.fitted(most, false)).unwrap_or_else(|| self.clustered(1.0, false))
+    }
+
+    /// Thinned until it fits, the pieces in a cell kept `apart` or not; `None` if it never does.
+    fn fitted(&self, most: usize, apart: bool) -> Option<Self> {
         let mut cells = (self.points.len() as f64).sqrt();
         loop {
-            let thinned = self.clustered(cells);
-            if thinned.points.len() <= most || cells <= 1.0 {
-                return thinned;
+            let thinned = self.clustered(cells, apart);
+            if thinned.points.len() <= most {
+                return Some(thinned);
+            }
+            if cells <= 1.0 {
+                return None;
             }
             // The points of a surface go with the square of the cells.
             let step = (most as f64 / thinned.points.len() as f64).sqrt();
@@ -180,14 +189,17 @@ impl Surface {
         }
     }
 
-    /// One point for each cell of a grid with so many cells along the longest edge of the surface.
-    fn clustered(&self, cells: f64) -> Self {
+    /// One point for each cell of a grid with so many cells along the longest edge of the surface, or for each of the
+    /// pieces in it that no edge joins there.
+    fn clustered(&self, cells: f64, apart: bool) -> Self {
         let (low, high) = bounds(&self.points);
         let longest = (0..3).map(|k| high[k] - low[k]).fold(0.0, f64::max);
         let per_metre = cells.clamp(1.0, MOST_CELLS) / longest.max(f64::MIN_POSITIVE);
         let key = |p: &[f64; 3]| -> [u32; 3] { std::array::from_fn(|k| ((p[k] - low[k]) * per_metre) as u32) };
         let cell: Vec<[u32; 3]> = self.points.iter().map(key).collect();
-        let stays = self.representatives(&cell);
+        let sharp = self.sharp();
+        let cell = if apart { self.pieces(&cell, &sharp) } else { first_of_each(&cell) };
+        let stays = self.representatives(&cell, &sharp);
         let mut kept: Vec<usize> = stays.values().copied().collect();
         kept.sort_unstable();
         let mut new = vec![0; self.points.len()];
@@ -212,16 +224,33 @@ impl Surface {
         }
     }
 
-    /// The point that stays for each cell: one on an edge of the structure if there is one, and of these the nearest to
-    /// their mean.
-    fn representatives(&self, cell: &[[u32; 3]]) -> HashMap<[u32; 3], usize> {
-        let mut sharp = vec![false; self.points.len()];
-        let lines = self.lines.iter().flat_map(|line| &line.points);
-        for k in self.outline.iter().flatten().chain(lines) {
-            sharp[*k] = true;
+    /// For each point a point of the piece that it is of inside its cell. Edges of the structure and lines join their points,
+    /// sides of triangles those between; these go with an edge that they meet, and two edges stay two.
+    fn pieces(&self, cell: &[[u32; 3]], sharp: &[bool]) -> Vec<usize> {
+        let within = |[a, b]: &[usize; 2]| cell[*a] == cell[*b];
+        let sides: Vec<[usize; 2]> = self.triangles.iter().copied().flat_map(sides).filter(within).collect();
+        let lines = self.lines.iter().flat_map(|line| line.points.windows(2).map(|ends| [ends[0], ends[1]]));
+        let sharp_ones = self.outline.iter().copied().chain(lines).filter(within);
+        let between = sides.iter().copied().filter(|ends| ends.iter().all(|k| !sharp[*k]));
+        let mut first: Vec<usize> = (0..cell.len()).collect();
+        for ends in sharp_ones.chain(between) {
+            let [a, b] = ends.map(|k| root(&mut first, k));
+            first[a] = b;
         }
+        for [a, b] in sides.into_iter().map(|[a, b]| if sharp[a] { [b, a] } else { [a, b] }) {
+            let [a, b] = [a, b].map(|k| root(&mut first, k));
+            if !sharp[a] && sharp[b] {
+                first[a] = b;
+            }
+        }
+        (0..cell.len()).map(|k| root(&mut first, k)).collect()
+    }
+
+    /// The point that stays for each piece: one on an edge of the structure if there is one, and of these the nearest to
+    /// their mean.
+    fn representatives(&self, cell: &[usize], sharp: &[bool]) -> HashMap<usize, usize> {
         // Sum and number of the points that count.
-        let mut means: HashMap<[u32; 3], (bool, [f64; 3], f64)> = HashMap::new();
+        let mut means: HashMap<usize, (bool, [f64; 3], f64)> = HashMap::new();
         for (k, point) in self.points.iter().enumerate() {
             let mean = means.entry(cell[k]).or_insert((sharp[k], [0.0; 3], 0.0));
             if sharp[k] && !mean.0 {
@@ -232,7 +261,7 @@ impl Surface {
                 mean.2 += 1.0;
             }
         }
-        let mut best: HashMap<[u32; 3], (f64, usize)> = HashMap::new();
+        let mut best: HashMap<usize, (f64, usize)> = HashMap::new();
         for (k, point) in self.points.iter().enumerate() {
             let (wanted, sum, count) = means[&cell[k]];
             if sharp[k] != wanted {
@@ -245,6 +274,16 @@ impl Surface {
             }
         }
         best.into_iter().map(|(cell, (_, k))| (cell, k)).collect()
+    }
+
+    /// Whether a point is on an edge of the structure or on a line.
+    fn sharp(&self) -> Vec<bool> {
+        let mut sharp = vec![false; self.points.len()];
+        let lines = self.lines.iter().flat_map(|line| &line.points);
+        for k in self.outline.iter().flatten().chain(lines) {
+            sharp[*k] = true;
+        }
+        sharp
     }
 
     /// Triangles that still have three corners, each once.
@@ -263,6 +302,21 @@ impl Surface {
         kept.sort_unstable();
         (kept.iter().map(|k| k.1).collect(), kept.iter().map(|k| k.0).collect())
     }
+}
+
+/// The first point of the piece that a point belongs to; on the way each is tied to its neighbour's neighbour.
+fn root(first: &mut [usize], mut k: usize) -> usize {
+    while first[k] != k {
+        first[k] = first[first[k]];
+        k = first[k];
+    }
+    k
+}
+
+/// For each point the first one in the same cell.
+fn first_of_each(cell: &[[u32; 3]]) -> Vec<usize> {
+    let mut first = HashMap::new();
+    cell.iter().enumerate().map(|(k, cell)| *first.entry(*cell).or_insert(k)).collect()
 }
 
 #[cfg(test)]
@@ -345,6 +399,7 @@ mod tests {
 #[cfg(test)]
 mod cluster_tests {
     use super::super::samples::cube;
+    use super::super::view::ShapeTriangle;
     use super::*;
 
     #[test]
@@ -369,6 +424,53 @@ mod cluster_tests {
         assert!(sides.values().all(|n| *n == 2));
         assert!(thin.groups.contains(&0) && thin.groups.contains(&1));
         assert_eq!(thin.lines[0].points.len(), 4);
+    }
+
+    /// An open box whose wall is a sixth of a cell: points of one face that stayed for both would tear the other, and its rim.
+    #[test]
+    fn the_faces_of_a_thin_wall_stay_apart() {
+        let mut view = cube(40, 1);
+        let outside = view.points.len();
+        view.triangles.retain(|triangle| triangle.group == 0);
+        let rim: Vec<[usize; 2]> =
+            outline(&view).into_iter().filter(|ends| ends.iter().all(|k| view.points[*k][2] > 0.99)).collect();
+        assert_eq!(rim.len(), 160);
+        let inside = view.points.iter().map(|[x, y, z]| [0.005 + 0.99 * x, 0.005 + 0.99 * y, 0.005 + 0.995 * z]);
+        let inside: Vec<[f64; 3]> = inside.collect();
+        view.points.extend(inside);
+        for mut triangle in view.triangles.clone() {
+            triangle.corners = triangle.corners.map(|k| k + outside);
+            view.triangles.push(triangle);
+        }
+        for [a, b] in rim {
+            for corners in [[a, b, a + outside], [b, b + outside, a + outside]] {
+                view.triangles.push(ShapeTriangle { corners, group: 0 });
+            }
+        }
+        (view.edges, view.lines) = (Vec::new(), Vec::new());
+        let thin = Surface::of(&view).thinned(3000);
+        assert!((2000..=3000).contains(&thin.points.len()), "{}", thin.points.len());
+        let is_outside = |k: &usize| thin.source[*k] < outside;
+        let of_one_face = |points: &[usize]| points.iter().all(|k| is_outside(k) == is_outside(&points[0]));
+        // within a cell: at a corner a point of the upright edge may stay
+        let on_the_rim = |points: &[usize]| points.iter().all(|k| thin.points[*k][2] > 0.9);
+        assert!(thin.triangles.iter().all(|corners| of_one_face(corners) || on_the_rim(corners)));
+        assert!(thin.outline.iter().all(|ends| of_one_face(ends)));
+    }
+
+    /// Triangles that share no point: kept apart they would be as many for ever.
+    #[test]
+    fn a_surface_in_pieces_is_thinned_too() {
+        let mut view = cube(20, 1);
+        let corners: Vec<usize> = view.triangles.iter().flat_map(|t| t.corners).collect();
+        let points: Vec<[f64; 3]> = corners.iter().map(|k| view.points[*k]).collect();
+        view.points = points;
+        for (number, triangle) in view.triangles.iter_mut().enumerate() {
+            triangle.corners = [0, 1, 2].map(|k| 3 * number + k);
+        }
+        (view.edges, view.lines) = (Vec::new(), Vec::new());
+        let points = Surface::of(&view).thinned(1000).points.len();
+        assert!((600..=1000).contains(&points), "{points}");
     }
 
     #[test]

@@ -94,7 +94,7 @@ impl Strikes<'_> {
         if let (Some(_), Some(cage)) = (self.fault, cage) {
             let error = orders.error(Fault::Cage) + speed_error;
             lines.extend((1..=CAGE_MULTIPLES).map(|multiple| {
-                let name = format!("{multiple} x FTF (balls enter the load zone)");
+                let name = format!("{multiple} x entry of one ball into the load zone");
                 KnownLine::new(f64::from(multiple) * cage, error, name)
             }));
         }

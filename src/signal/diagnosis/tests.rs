@@ -182,6 +182,24 @@ fn what_comes_once_a_turn_names_nothing() {
     assert_eq!(inner.harmonics[0].coincides_with.as_deref(), Some("1 x shaft"));
 }
 
+#[test]
+fn a_line_of_the_cage_is_compared_with_no_other_name_of_it() {
+    let orders = bearing();
+    let values = struck(2.4, steady, orders.outer, |_| 1.0);
+    let found = judged(&with_noise(&values, 0.3, 1), steady, &orders, 0.0);
+    let cage = verdict(&found, Fault::Cage);
+    let [first, second] = [0, 1].map(|k| cage.harmonics[k].coincides_with.as_deref());
+    assert_eq!(first, Some("1 x entry of one ball into the load zone"), "{cage:#?}");
+    assert_eq!(second, Some("2 x entry of one ball into the load zone"), "{cage:#?}");
+    assert!(cage.why.contains("(1 x cage with 1 x entry of one ball into the load zone"), "{}", cage.why);
+}
+
+#[test]
+fn noise_has_no_more_lines_than_chance_makes() {
+    let found = judged(&with_noise(&[0.0; 30_000], 1.0, 5), steady, &bearing(), 0.0);
+    assert_eq!(found.sentence(), "no fault indicated. No more lines stand out than chance makes.");
+}
+
 /// Noise whose strength follows the balls that pass under the load, smoothly: a healthy bearing.
 #[test]
 fn a_smooth_modulation_at_the_ball_pass_is_seen_and_not_named() {

@@ -272,7 +272,7 @@ pub(super) fn conclude(verdict: &FaultVerdict, evidence: &Evidence, chance: f64)
     let strength = evidence.strength_db.unwrap_or(0.0);
     let mut found = format!("{seen} of {free} free harmonics stand out; probability by chance {}", probability(chance));
     if chance >= UNSEEN_ABOVE {
-        return (Conclusion::NotSeen, format!("{found}."), "Chance makes such lines.".to_owned());
+        return (Conclusion::NotSeen, format!("{found}."), "No more lines stand out than chance makes.".to_owned());
     }
     let reason = format!("{seen} harmonics stand out, {strength:.0} dB above the floor on the average.");
     found.push_str(&format!("; {strength:.0} dB above the floor on the average"));

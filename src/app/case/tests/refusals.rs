@@ -122,6 +122,13 @@ fn keys_that_exclude_each_other_are_named() {
 }
 
 #[test]
+fn a_key_set_beside_one_that_it_excludes_says_how_to_replace_both() {
+    let help = "to replace the whole table: --set 'modes={ band_hz = [1, 2] }'".to_owned();
+    assert_eq!(refusal(&["modes.band_hz=[1, 2]"]).1, Some(help));
+    assert_eq!(refusal(&["modes={count=1,up_to_hz=1}"]).1, None);
+}
+
+#[test]
 fn text_and_arguments_that_are_malformed_are_named() {
     let error = read("title = \n", &[]).unwrap_err().to_string();
     assert!(error.starts_with("folder/case.toml:1: not valid TOML: "), "{error}");

@@ -17,8 +17,8 @@ use crate::signal::diagnosis::{
     LevelChange, LineChange, spectrum_end_hz,
 };
 use crate::signal::{
-    Emphasis, EnvelopeAnalysis, EnvelopePeak, EnvelopeSpectrum, NamedLine, PeakSearch, band_limit, envelope_peaks,
-    squared, usual_high_pass_hz, whiten,
+    Emphasis, EnvelopeAnalysis, EnvelopePeak, EnvelopeSpectrum, NamedLine, PeakSearch, SignalError, band_limit,
+    envelope_peaks, rms_up_to, squared, usual_high_pass_hz, whiten,
 };
 use schemars::JsonSchema;
 use serde::{Serialize, Serializer};
@@ -115,10 +115,9 @@ pub struct BandLevel {
 }
 
 impl BandLevel {
-    /// Of a window, s; `None` for a signal shorter than the filter.
-    fn of(signal: &TimeSeries, [from, to]: [f64; 2], to_hz: f64) -> Option<Self> {
-        let limited = band_limit(signal, to_hz).ok()?;
-        Some(Self { to_hz, rms: limited.window(from, to).ok()?.rms() })
+    /// Of a window of a signal.
+    fn of(window: &TimeSeries, to_hz: f64) -> Result<Self, SignalError> {
+        Ok(Self { to_hz, rms: rms_up_to(window, to_hz)? })
     }
 
     /// In words, where it is another level than that of the whole signal.
@@ -316,7 +315,7 @@ pub fn analyse(
                 to,
                 speed_hz,
                 rms: part.rms(),
-                rms_in_band: settings.good_to_hz.and_then(|hz| BandLevel::of(&stretch, [from, to], hz)),
+                rms_in_band: settings.good_to_hz.map(|hz| BandLevel::of(&part, hz)).transpose()?,
                 peak: part.peak(),
                 kurtosis: part.kurtosis(),
                 shown: [thinned(sensor, &part), thinned("envelope", &envelope.window(from, to)?)],
@@ -569,6 +568,18 @@ mod tests {
         assert!(!is_line_of(&bearings, 2.02 * one.outer));
         // of a machine with one bearing nothing is known for its own here
         assert!(!is_line_of(&[], one.outer));
+    }
+
+    /// Tones at 9.9 and 10.1 kHz, whole periods of each: half of the power lies in the band.
+    #[test]
+    fn the_level_in_the_band_ends_at_its_end() {
+        let tone = |hz: f64, k: i32| (std::f64::consts::TAU * hz * f64::from(k) / 51_200.0).sin();
+        let values = (0..5120).map(|k| 3.0 + tone(9900.0, k) + tone(10_100.0, k));
+        let window = TimeSeries::new(0.3, 1.0 / 51_200.0, "m/s^2", values.collect()).unwrap();
+        let level = BandLevel::of(&window, 10e3).unwrap();
+        assert!((level.rms.powi(2) - 9.5).abs() < 1e-9, "{level:?}");
+        let whole = BandLevel::of(&window, 25.6e3).unwrap();
+        assert!((whole.rms / window.rms() - 1.0).abs() < 1e-12, "{whole:?}");
     }
 
     #[test]

@@ -12,6 +12,7 @@ use super::quantities::USUAL_BAND;
 use crate::app::case::{Case, RunCase, Transient};
 use crate::app::commands::run::Span;
 use crate::app::scene::Scene;
+use crate::numerics::Brief;
 use crate::report::significant;
 use schemars::JsonSchema;
 use serde::Serialize;
@@ -125,7 +126,16 @@ impl Horizon {
     pub(crate) fn warning(&self, estimated_error: Option<f64>) -> Option<String> {
         let error = estimated_error.filter(|_| self.covers(estimated_error) == Covered::Part)?;
         let ms = |seconds: f64| format!("{} ms", significant(1e3 * seconds, 3));
-        let from = if self.from_s > self.start_s { format!(" from {} on", ms(self.from_s)) } else { String::new() };
+        let covered = match self.from_s > self.start_s {
+            true => {
+                let until = |begin: f64, length: f64| {
+                    format!("{} to {}", Brief::rounded(begin, 6), Brief::rounded(begin + length, 6))
+                };
+                let [part, whole] = [until(self.from_s, self.held_s), until(self.start_s, self.run_s)];
+                format!("{part} s of the run's {whole} s")
+            }
+            false => format!("{} of the run's {}", ms(self.held_s), ms(self.run_s)),
+        };
         let grown = self.growth.map_or(String::new(), |[held, looked]| {
             let later = match self.passed() {
                 true => format!(", {} times in {}", significant(looked, 2), ms(self.looked_s)),
@@ -134,10 +144,8 @@ impl Horizon {
             format!(", in which a small perturbation of the start grows {} times{later}", significant(held, 2))
         });
         Some(format!(
-            "the estimated error of {} covers {}{from} of the run's {}{grown}: beyond, compare spectra and verdicts instead of samples",
-            significant(error, 2),
-            ms(self.held_s),
-            ms(self.run_s)
+            "the estimated error of {} covers {covered}{grown}: beyond, compare spectra and verdicts instead of samples",
+            significant(error, 2)
         ))
     }
 
@@ -291,6 +299,23 @@ mod tests {
         assert_eq!([None, Some(1.0)].map(|error| horizon.covers(error)), [Covered::Nothing; 2]);
         let short = Horizon { start_s: 0.0, from_s: 2.58, held_s: 1e-3, strikes: true, ..longer };
         assert!(short.sentence().starts_with("for 1.0 ms from 2580 ms on; after that"), "{}", short.sentence());
+    }
+
+    #[test]
+    fn what_is_covered_and_the_run_are_on_one_clock() {
+        let late = Horizon {
+            from_s: 2.58,
+            held_s: 2e-3,
+            looked_s: 6e-3,
+            start_s: 2.2,
+            run_s: 0.4,
+            strikes: true,
+            growth: None,
+        };
+        let warning = late.warning(Some(0.01)).unwrap();
+        assert!(warning.contains("0.010 covers 2.58 to 2.582 s of the run's 2.2 to 2.6 s: beyond"), "{warning}");
+        let first = Horizon { from_s: 2.2, ..late }.warning(Some(0.01)).unwrap();
+        assert!(first.contains("covers 2.00 ms of the run's 400 ms: beyond"), "{first}");
     }
 
     /// What no finer model sees leaves less to what it sees.
