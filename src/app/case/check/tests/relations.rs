@@ -77,7 +77,7 @@ fn one_value_stays_below_the_other() {
         ("ring.supports[0].to_deg=541", "found 541, expected at most a full turn after `from_deg` (540)"),
         ("bearing.radial_play=2e-4", "found 2e-4, expected at most a tenth of the ball's radius either way (1e-4)"),
         ("bearing.radial_play=-2e-4", "found -2e-4, expected at most a tenth of the ball's radius either way (1e-4)"),
-        ("bearing.defects[0].depth=1e-3", "found 0.001, expected below `bearing.ball_radius` (0.001)"),
+        ("bearing.defects[0].depth=5e-4", "found 5e-4, expected below half `bearing.ball_radius` (5e-4)"),
         ("transient.step=3", "found 3, expected below the simulated time (2)"),
         ("analysis.high_pass_hz=50000", "found 50000, expected below half of `transient.output_hz` (50000)"),
         ("bearing.defects[0].rim_radius=0.375e-3", "found 3.75e-4, expected below half the defect's length (3.75e-4)"),
