@@ -63,6 +63,10 @@ fn one_value_exceeds_the_other() {
         ("speed.profile[1].time=0.2", "found 0.2, expected more than the time before it (0.2)"),
         ("accuracy.band_hz[1]=0", "found 0, expected more than the lowest frequency (0)"),
         ("transient.end=0.5", "found 0.5, expected more than `transient.start` (0.5)"),
+        (
+            "transient.end=0.500001",
+            "found 0.500001, expected at least one interval of `transient.output_hz` after `transient.start` (0.50001)",
+        ),
         ("analysis.envelope[0].to=2.3", "found 2.3, expected more than `from` (2.3)"),
     ] {
         full(argument, rule);
