@@ -217,6 +217,11 @@ impl ComputeError {
         }
     }
 
+    /// Whether a file could not be written.
+    pub(crate) fn is_of_writing(&self) -> bool {
+        matches!(self, Self::File(FileError::Write { .. }) | Self::Format(FormatError::File(FileError::Write { .. })))
+    }
+
     /// Whether the input is wrong, rather than the computation failed.
     pub(crate) fn is_input(&self) -> bool {
         match self {

@@ -1,7 +1,9 @@
 //! What can go wrong between structure and bearing.
 
 use crate::fe::reduction::frf::FrfError;
+use crate::numerics::Brief;
 use crate::numerics::linalg::LinalgError;
+use std::fmt;
 use thiserror::Error;
 
 /// Failure of a coupled computation.
@@ -29,12 +31,42 @@ pub enum SystemError {
     },
     /// No stable equilibrium found.
     #[error(
-        "no static equilibrium found after {iterations} iterations: the forces on shaft and balls are still {residual_n:.3e} N out of balance; check loads and clearance"
+        "no static equilibrium found after {iterations} iterations: the forces on shaft and balls are still {} N out of balance; {pressed}",
+        Brief::rounded(*residual_n, 4)
     )]
     NoEquilibrium {
         /// Iterations made.
         iterations: usize,
         /// Largest force out of balance, N.
         residual_n: f64,
+        /// What the load would do to one ball.
+        pressed: Pressed,
     },
+}
+
+/// A ball that carries the whole load by itself.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Pressed {
+    /// The load, N.
+    pub load_n: f64,
+    /// Stiffness of both contacts in series, N/m^1.5.
+    pub stiffness: f64,
+    /// Half the ball's radius, m: beyond it neither Hertz theory nor the geometry holds.
+    pub limit_m: f64,
+}
+
+/// What to check.
+impl fmt::Display for Pressed {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let pressed_m = (self.load_n / self.stiffness).powf(2.0 / 3.0);
+        if pressed_m < self.limit_m {
+            return f.write_str("check loads and clearance");
+        }
+        let [load, stiffness, pressed, limit] =
+            [self.load_n, self.stiffness, pressed_m, self.limit_m].map(|value| Brief::rounded(value, 4));
+        write!(
+            f,
+            "{load} N on contacts of {stiffness} N/m^1.5 press a ball by {pressed} m, and the model holds to {limit} m, half its radius: check loads, masses and bearing.stiffness"
+        )
+    }
 }

@@ -31,7 +31,7 @@ pub use bearing_setup::{BallsInertia, BearingSetup, FlatOnBall, Formulation, Loa
 pub use coupled::{CoupledSystem, ModeSelection};
 pub use energy::{EnergyBalance, EnergyMeter};
 pub use equilibrium::{BallLoad, Equilibrium, StaticCondition};
-pub use error::SystemError;
+pub use error::{Pressed, SystemError};
 pub use loaded::{LoadedMode, LoadedModes, LoadedPass, LoadedPoint, LoadedShapes};
 pub use powers::Powers;
 pub use record::{Column, RecordLayout, RunRecord};

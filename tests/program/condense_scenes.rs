@@ -428,6 +428,23 @@ fn flat_elements_are_right_or_refused() {
     assert_eq!(ends.iter().map(|end| end.0).collect::<Vec<_>>(), [0, 0, 0, 1, 2], "{ends:?}");
 }
 
+/// The full model of a flat layer has no modes that satisfy their equation: what was condensed is written, and a check says so.
+#[test]
+fn a_comparison_that_cannot_be_computed_is_a_check_that_fails() {
+    let flat = column_of(6, |at| layered(at, 1e-12));
+    let said = run(&scene("no-full-model", &flat), &on(TOP, FLOOR), &["--quiet", "--compare-full"]);
+    assert_eq!(said.code, 1);
+    for part in [
+        "error: vectors diagonalise: found ",
+        "; frequencies: found \u{221e}, expected at most 0.01 (the comparison with the full model could not be computed: mode 0 \
+         leaves a relative residual of ",
+    ] {
+        assert!(said.error.contains(part), "{}", said.error);
+    }
+    let json = said.json.unwrap();
+    assert!(json["full_frequencies_hz"].is_null() && !json["frequencies_hz"].as_array().unwrap().is_empty());
+}
+
 fn layered([x, y, z]: [usize; 3], thin: f64) -> [f64; 3] {
     let height = match z {
         0..3 => SIDE * z as f64,

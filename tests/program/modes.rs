@@ -87,6 +87,27 @@ fn the_library_has_the_modes_of_the_program() {
     assert_eq!(json["rigid_modes"].as_u64(), Some(found.rigid_modes as u64));
 }
 
+#[test]
+fn parts_of_stiffness_too_far_apart_are_named() {
+    let folder = scratch("contrast");
+    let case = "[materials]\nfoam = { young = 2, poisson = 0.3, density = 1000 }\n\
+        [housing]\nmesh = \"MESH\"\nlength_unit = \"mm\"\n\
+        parts = [{ group = \"lower\", material = \"foam\" }, { group = \"upper\", material = \"steel\" }]\n\
+        links = [{ between = [\"seat\", \"foot\"], tie = true }]\nsupports = [{ group = \"base\", fixed = \"all\" }]\n";
+    let mesh = project("tests/data/two_blocks.msh").display().to_string();
+    fs::write(folder.join("ring.toml"), case.replace("MESH", &mesh)).unwrap();
+    let output = modes(&folder, &["modes.count=4"]);
+    let said = text(&output.stderr);
+    assert_eq!(output.status.code(), Some(1), "{said}");
+    for part in [
+        "error: mode 0 leaves a relative residual of ",
+        "\nhelp: part \"lower\" (foam, young = 2 Pa) is 1.",
+        "e11 times softer than part \"upper\" (steel, young = 2",
+    ] {
+        assert!(said.contains(part), "{said}");
+    }
+}
+
 /// Tetrahedra of first order lock in bending; the program says so, and says nothing of those of second order.
 #[test]
 fn elements_that_are_too_stiff_in_bending_are_told() {

@@ -82,6 +82,12 @@ fn a_full_disk_is_an_error_that_names_the_file() {
         assert_eq!(code(&output), Some(1), "{name}: {said}");
         assert!(said.contains("No space left on device"), "{name}: {said}");
         assert!(said.contains(&disk.0.display().to_string()), "{name}: {said}");
+        let checkpoint = disk.0.join("out/.run.partial/checkpoint").exists();
+        assert_eq!(
+            said.contains("\nhelp: make room, then go on from the last checkpoint with: "),
+            checkpoint,
+            "{said}"
+        );
         let result = disk.0.join("out").join(format!("{name}.json"));
         assert!(!result.exists(), "{name}: a result without its files");
     }

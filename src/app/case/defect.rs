@@ -40,7 +40,7 @@ pub struct DentDefect {
     /// their contact angle.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub across: Option<f64>,
-    /// Greatest depth below the undeformed race, below the ball's radius.
+    /// Greatest depth below the undeformed race, below half the ball's radius.
     pub depth: f64,
     /// What of the dent is felt.
     pub profile: DentProfile,
@@ -153,7 +153,7 @@ struct DefectForm {
     /// Of a dent: place of its middle across the groove, an arc from the groove's bottom towards +z; needs `width`. Absent: under the
     /// balls, whatever their contact angle.
     across: Option<f64>,
-    /// Greatest depth, > 0 and below the ball's radius.
+    /// Greatest depth, > 0; of a dent below half the ball's radius, of a flat below the radius.
     depth: Option<f64>,
     /// What of a dent is felt, or the file of a measured profile.
     profile: Option<Profile>,

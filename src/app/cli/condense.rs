@@ -5,7 +5,7 @@ use super::results::{Job, warnings};
 use super::{CliError, Outcome, typed};
 use crate::app::commands::condense::{Comparison, CondenseResult, compute_condense, condense_report, imported_report};
 use crate::app::error::ComputeError;
-use crate::app::scene::{Boundary, ImportedHousing};
+use crate::app::scene::{Boundary, ImportedHousing, contrast};
 use crate::fe::reduction::{Bound, Check};
 use crate::formats::write_superelement_npz;
 use crate::report::{significant, trimmed};
@@ -36,13 +36,13 @@ pub(super) fn condense(job: &Job<'_>, compare_full: bool) -> Result<Outcome, Cli
         written: [vec![path, element], files.paths].concat(),
         verdict: verdict(
             &result.checks,
-            &format!(
+            &[Some(format!(
                 "{} or a narrower band (accuracy.band_hz) mend errors in the band; other checks fail where a part is loose or held very softly, or elements are nearly flat: see the report",
                 match result.interface {
                     None => "more vectors (condense.fixed_interface_modes)",
                     Some(_) => "more coordinates (condense.interface_modes, condense.fixed_interface_modes)",
                 }
-            ),
+            )), contrast(case)].into_iter().flatten().collect::<Vec<_>>().join("\n"),
         ),
     })
 }

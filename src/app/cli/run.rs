@@ -15,7 +15,8 @@ use crate::app::commands::run::{
 use crate::app::error::ComputeError;
 use crate::numerics::ode::{BlowUp, MOST_STEPS_PER_INTERVAL, StepLimit};
 use crate::report::{quantity, significant, wrapped};
-use std::path::Path;
+use serde_json::Value;
+use std::path::{Path, PathBuf};
 use std::time::Duration;
 
 /// Checks that there is an unfinished run to go on with.
@@ -88,21 +89,37 @@ pub(super) fn run(job: &Job<'_>, resume: bool, pause: Duration) -> Result<Outcom
         ComputeError::Interrupted { .. } => {
             interrupted(&error.to_string(), "the signals so far and a checkpoint are", &unfinished.folder)
         }
+        error if error.is_of_writing() => kept(error.into(), &unfinished.folder),
         error => error.into(),
     })?;
-    progress.stage("write");
-    let mut arrays = vec![write_signals(folder, &result)?];
-    arrays.extend(write_scalograms(folder, &result.scalograms)?);
-    let report = run_report(case, &result, &typed())?;
-    let files = ReportFiles::write(folder, "run", case, report, progress)?;
-    let (path, json) = job.write_result(&files, &arrays, result.summary())?;
+    let (written, json) = write(job, &result).map_err(|error| kept(error, &unfinished.folder))?;
     unfinished.remove()?;
     Ok(Outcome {
         summary: summary(case, &result, job.started.elapsed().as_secs_f64()),
         result: json,
-        written: [arrays, vec![path], files.paths].concat(),
+        written,
         verdict: verdict(&result, case.transient.as_ref()),
     })
+}
+
+/// Writes the signals, the report and, last, `run.json`: the files, and what the last one says.
+fn write<R: Recording>(job: &Job<'_>, result: &RunResult<R>) -> Result<(Vec<PathBuf>, Value), CliError> {
+    let Job { case, progress, ref folder, .. } = *job;
+    progress.stage("write");
+    let mut arrays = vec![write_signals(folder, result)?];
+    arrays.extend(write_scalograms(folder, &result.scalograms)?);
+    let report = run_report(case, result, &typed())?;
+    let files = ReportFiles::write(folder, "run", case, report, progress)?;
+    let (path, json) = job.write_result(&files, &arrays, result.summary())?;
+    Ok(([arrays, vec![path], files.paths].concat(), json))
+}
+
+/// A failure to write, with the way on from the last checkpoint if there is one.
+fn kept(error: CliError, partial: &Path) -> CliError {
+    match UnfinishedRun::is_in(partial) {
+        true => error.with_help(format!("make room, then go on from the last checkpoint with: {} --resume", typed())),
+        false => error,
+    }
 }
 
 fn interrupted(what: &str, kept: &str, at: &Path) -> CliError {

@@ -43,6 +43,6 @@ pub(crate) use housing::{description, mesh_digests, read_mesh};
 pub use imported::ImportedHousing;
 pub use in_full::RingsInHousing;
 pub use machine::MachineScene;
-pub(crate) use plausible::size_doubt;
+pub(crate) use plausible::{contrast, size_doubt};
 pub use ring::Boundary;
 pub use structure::{CoupledStructure, FreeSystem};

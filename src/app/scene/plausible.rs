@@ -66,6 +66,9 @@ const STRIBECK: f64 = 5.0;
 /// How many times a given contact stiffness may be above or below that by Hertz.
 const STIFFNESS: f64 = 100.0;
 
+/// Stiffest modulus over the softest that is told where an equation fails: soft rubber and steel have 2e5.
+const CONTRAST: f64 = 1e6;
+
 fn within([low, high]: [f64; 2], value: f64) -> bool {
     (low..=high).contains(&value)
 }
@@ -74,13 +77,7 @@ fn within([low, high]: [f64; 2], value: f64) -> bool {
 pub(super) fn materials(case: &Case) -> Vec<String> {
     let told = case.materials.iter().filter_map(|(name, material)| {
         let density = material.density();
-        let (least, most) = match material {
-            case::Material::Isotropic(material) => (material.young, material.young),
-            case::Material::Orthotropic(material) => {
-                let along = material.young.iter();
-                along.fold((f64::INFINITY, 0.0), |(least, most): (f64, f64), young| (young.min(least), young.max(most)))
-            }
-        };
+        let [least, most] = moduli(material);
         if is_solid([least, most], density) {
             return None;
         }
@@ -93,6 +90,37 @@ pub(super) fn materials(case: &Case) -> Vec<String> {
         ))
     });
     told.collect()
+}
+
+/// Least and largest Young's modulus, Pa.
+fn moduli(material: &case::Material) -> [f64; 2] {
+    match material {
+        case::Material::Isotropic(material) => [material.young; 2],
+        case::Material::Orthotropic(material) => {
+            let along = material.young.iter();
+            along.fold([f64::INFINITY, 0.0], |[least, most], young| [young.min(least), young.max(most)])
+        }
+    }
+}
+
+/// What to do about parts of which one is so much stiffer than another that its round-off hides the other's stiffness.
+pub(crate) fn contrast(case: &Case) -> Option<String> {
+    let parts = case.meshed_housing()?.parts.iter();
+    let parts: Vec<_> = parts.filter_map(|part| Some((part, moduli(case.material(&part.material)?)))).collect();
+    let (soft, [least, _]) = parts.iter().min_by(|a, b| a.1[0].total_cmp(&b.1[0]))?;
+    let (stiff, [_, most]) = parts.iter().max_by(|a, b| a.1[1].total_cmp(&b.1[1]))?;
+    (most / least > CONTRAST).then(|| {
+        format!(
+            "part \"{}\" ({}, young = {} Pa) is {} times softer than part \"{}\" ({}, young = {} Pa): check both in Pa, or leave the soft part out of housing.parts and put springs in its place (housing.links)",
+            soft.group,
+            soft.material,
+            short(*least),
+            Brief::rounded(most / least, 2),
+            stiff.group,
+            stiff.material,
+            short(*most)
+        )
+    })
 }
 
 /// Whether there may be a solid with moduli from `least` to `most` (Pa) and this density (kg/m^3).

@@ -14,6 +14,7 @@
 //! d g = sum_k left_k (position_k . d y + velocity_k . d v)
 //! ```
 
+use crate::numerics::Brief;
 use thiserror::Error;
 
 /// Linear part of one coordinate.
@@ -113,7 +114,7 @@ pub enum Divergence {
         step: f64,
     },
     /// A coordinate left the range that the model holds for.
-    #[error("{what} is {value:.3e} {unit}, beyond {limit:.3e} {unit}")]
+    #[error("{what} is {} {unit}, beyond {} {unit}", Brief::rounded(*value, 4), Brief::rounded(*limit, 4))]
     OutOfRange {
         /// Which quantity.
         what: String,

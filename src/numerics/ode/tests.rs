@@ -328,6 +328,13 @@ fn a_blow_up_tells_step_limit_and_frequency() {
 }
 
 #[test]
+fn a_coordinate_out_of_its_range_is_told_briefly() {
+    let what = "shaft displacement x".to_owned();
+    let cause = Divergence::OutOfRange { what, value: 1.427_06, limit: 5e-4, unit: "m" };
+    assert_eq!(cause.to_string(), "shaft displacement x is 1.427 m, beyond 5e-4 m");
+}
+
+#[test]
 fn steps_divide_the_interval() {
     let schedule = Schedule::covering(2.6, 1e-5, 1.5e-8).expect("valid");
     assert_eq!(schedule.steps_per_interval, 667);

@@ -8,5 +8,5 @@ mod time_series;
 
 pub(crate) use decimator::KaiserLowPass;
 pub use decimator::{Decimator, DecimatorState, HALF_LENGTH_OUTPUTS, PASSED};
-pub(crate) use time_series::root_mean_square;
 pub use time_series::{SeriesError, TimeSeries, TimeWindow};
+pub(crate) use time_series::{root_mean_square, tolerance_steps};

@@ -15,7 +15,7 @@ use thiserror::Error;
 const INSTANT_TOLERANCE_STEPS: f64 = 1e-6;
 
 /// Steps by which an instant may miss a sample: round-off counts where time has its origin far away, as seconds since 1970 do.
-fn tolerance_steps(latest_s: f64, step_s: f64) -> f64 {
+pub(crate) fn tolerance_steps(latest_s: f64, step_s: f64) -> f64 {
     INSTANT_TOLERANCE_STEPS + 4.0 * f64::EPSILON * latest_s / step_s
 }
 

@@ -6,7 +6,7 @@ use super::search::{Evaluation, Potential};
 use crate::numerics::linalg::DenseMatrix;
 use crate::system::race::RaceForce;
 use crate::system::resting::RestingRaces;
-use crate::system::{BearingSetup, Formulation, Structure, SystemError};
+use crate::system::{BearingSetup, Formulation, Pressed, Structure, SystemError};
 use nalgebra::{DMatrix, DVector};
 
 /// What the contacts of a bearing carry, ball by ball.
@@ -173,6 +173,14 @@ impl Potential for Problem<'_> {
     fn force_scale(&self) -> f64 {
         let [x, y] = self.condition.load;
         x.hypot(y).max(self.setup.geometry.ball_mass() * 9.81)
+    }
+
+    fn pressed(&self) -> Pressed {
+        Pressed {
+            load_n: self.force_scale(),
+            stiffness: self.setup.stiffness.series(),
+            limit_m: 0.5 * self.setup.geometry.ball_radius(),
+        }
     }
 }
 

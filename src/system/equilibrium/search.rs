@@ -1,6 +1,6 @@
 //! Newton's method on a potential of contacts: down to a minimum, or to the next point without slope.
 
-use crate::system::SystemError;
+use crate::system::{Pressed, SystemError};
 use nalgebra::{DMatrix, DVector, Dyn, SymmetricEigen};
 
 type Eigen = SymmetricEigen<f64, Dyn>;
@@ -53,6 +53,9 @@ pub(in crate::system) trait Potential {
 
     /// Radius at which the balls stand, m.
     fn touching_radius(&self) -> f64;
+
+    /// What the load would do to the ball that gives way most.
+    fn pressed(&self) -> Pressed;
 }
 
 /// Where a search ended.
@@ -95,7 +98,7 @@ pub(in crate::system) trait Search: Potential {
                 });
             }
             if iterations == MAX_ITERATIONS || !before.is_finite() {
-                return Err(SystemError::NoEquilibrium { iterations, residual_n: before });
+                return Err(SystemError::NoEquilibrium { iterations, residual_n: before, pressed: self.pressed() });
             }
             evaluation = if downhill {
                 let most = if iterations < PATIENCE { [LONGEST_STEP; 2] } else { FAR };

@@ -8,10 +8,12 @@
 use super::pose::Pose;
 use super::setup::{SHAFT, SpatialSetup};
 use crate::bearing::BearingError;
-use crate::bearing::spatial::{Axis, InnerFrame, MountedBearing, RigidShaft, RingDisplacement, ShaftLoad, Thrust};
+use crate::bearing::spatial::{
+    Axis, GrooveContact, InnerFrame, MountedBearing, RigidShaft, RingDisplacement, ShaftLoad, Thrust,
+};
 use crate::numerics::linalg::DenseMatrix;
 use crate::system::equilibrium::{Evaluation, Found, HELD, Potential, Search};
-use crate::system::{Structure, StructureModes, SystemError};
+use crate::system::{Pressed, Structure, StructureModes, SystemError};
 use nalgebra::{DMatrix, DVector, SMatrix, Vector2, Vector3};
 
 /// Unknowns of a ball: its place, and that of the outer groove's centre under it.
@@ -506,6 +508,17 @@ impl Potential for Problem<'_> {
 
     fn touching_radius(&self) -> f64 {
         self.arm
+    }
+
+    fn pressed(&self) -> Pressed {
+        let start = Pressed { load_n: self.force_scale(), stiffness: f64::INFINITY, limit_m: f64::INFINITY };
+        self.setup.bearings.iter().fold(start, |least, own| {
+            let law = own.bearing.law();
+            let of_race = |groove: &GrooveContact| groove.stiffness.at(1.0)[0].powf(-2.0 / 3.0);
+            let stiffness = (of_race(&law.inner) + of_race(&law.outer)).powf(-1.5);
+            let (stiffness, limit_m) = (least.stiffness.min(stiffness), least.limit_m.min(0.25 * law.diameter));
+            Pressed { stiffness, limit_m, ..least }
+        })
     }
 }
 

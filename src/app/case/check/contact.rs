@@ -223,7 +223,8 @@ fn dent_rules(bearing: &Bearing, dent: &DentDefect, at: impl Fn(&str) -> String)
         Race::Outer => bearing.outer_race_radius,
     };
     below(at("length"), dent.length, "the race's circumference", 2.0 * PI * radius)?;
-    below(at("depth"), dent.depth, "`bearing.ball_radius`", bearing.ball_radius)?;
+    // a run ends where a ball is farther from its place
+    below(at("depth"), dent.depth, "half `bearing.ball_radius`", 0.5 * bearing.ball_radius)?;
     below(at("rim_radius"), dent.rim_radius, "half the defect's length", 0.5 * dent.length)
 }
 

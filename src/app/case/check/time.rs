@@ -310,6 +310,11 @@ pub(super) fn transient(case: &Case, transient: &Transient) -> Result<(), Broken
     FRACTION.check("transient.ensemble.perturbation", transient.ensemble.perturbation)?;
     ABOVE_ZERO.check("transient.output_hz", transient.output_hz)?;
     range::RATE.check("transient.output_hz", transient.output_hz)?;
+    let interval = 1.0 / transient.output_hz;
+    kept(transient.end - transient.start >= (1.0 - 1e-9) * interval, "transient.end", || {
+        let first = transient.start + interval;
+        Rule::beyond(transient.end, "at least one interval of `transient.output_hz` after `transient.start`", first)
+    })?;
     let Some(accuracy) = &case.accuracy else {
         return Ok(());
     };

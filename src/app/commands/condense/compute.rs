@@ -131,10 +131,7 @@ pub fn compute_condense(
         InterfaceModes::UpToHz(hz) => Some(InterfaceSize::UpTo(hz)),
     };
     let checked = || -> Result<_, ComputeError> {
-        let modes = match comparison == Comparison::Full || size.is_some() {
-            true => Some(characteristic_modes(&stage, &matrices)?),
-            false => None,
-        };
+        let modes = size.map(|_| characteristic_modes(&stage, &matrices)).transpose()?;
         let sized = modes.as_ref().zip(size);
         let reduction =
             sized.map(|(modes, size)| InterfaceReduction::new(&stage.condensed, modes, size)).transpose()?;
@@ -158,33 +155,58 @@ pub fn compute_condense(
     let (mut full, mut price, mut bores) = (None, None, None);
     if comparison == Comparison::Full {
         watch.stage("full model");
-        let mut found = compare(&stage, &estimate, watch)?;
+        let target = case.target();
+        full = computed(compare(&stage, &estimate, watch), "frequencies", target, &mut checks)?;
         // with means over free nodes the interior is not what the partition leaves, and another factor has no such modes
         if stage.boundary.partition().mean.is_empty() {
-            checks.push(fixed_interface(&stage, watch)?);
+            let own = fixed_interface(&stage, watch);
+            let own = computed(own, "fixed-interface frequencies", SAME, &mut checks)?;
+            checks.extend(own);
         }
-        let errors = found.relative_errors.iter().flatten();
-        let largest = errors.fold(0.0, |largest: f64, error| largest.max(error.abs()));
-        let what = "largest relative difference of the coupled frequencies in the band from the full model";
-        checks.push(Check::at_most("frequencies", what, largest, case.target()));
-        let elastic = found.relative_errors.iter().any(Option::is_some);
-        if let Some(modes) = modes.as_ref().filter(|_| elastic) {
-            let rigid = found.relative_errors.iter().take_while(|e| e.is_none());
-            found.sizes =
-                size_study(&stage.condensed.substructure, modes, &found.frequencies_hz, rigid.count(), watch)?;
+        if let Some(found) = &mut full {
+            let errors = found.relative_errors.iter().flatten();
+            let largest = errors.fold(0.0, |largest: f64, error| largest.max(error.abs()));
+            let what = "largest relative difference of the coupled frequencies in the band from the full model";
+            checks.push(Check::at_most("frequencies", what, largest, target));
+            let rigid = found.relative_errors.iter().take_while(|error| error.is_none()).count();
+            if rigid < found.relative_errors.len() {
+                let sizes = || {
+                    let modes = modes.map_or_else(|| characteristic_modes(&stage, &matrices), Ok)?;
+                    let substructure = &stage.condensed.substructure;
+                    Ok(size_study(substructure, &modes, &found.frequencies_hz, rigid, watch)?)
+                };
+                found.sizes = computed(sizes(), "errors by size", target, &mut checks)?.unwrap_or_default();
+            }
         }
-        full = Some(found);
         if stage.boundary.rings().is_some() {
-            price = Some(tie_price(case, &stage.housing, TIE_PRICE_MODES, watch)?);
+            let found = tie_price(case, &stage.housing, TIE_PRICE_MODES, watch);
+            price = computed(found, "price of the tie", target, &mut checks)?;
         }
         if let Boundary::Centres(centres) = &stage.boundary
             && centres.nodes.iter().any(|(_, node)| node.tie == CentreTie::Rigid)
         {
-            bores = Some(bore_price(&stage, watch)?);
+            bores = computed(bore_price(&stage, watch), "price of rigid bores", target, &mut checks)?;
         }
     }
     drop(matrices);
     Ok(CondenseResult { doubts, stage, interface, estimate, checks, full, tie_price: price, bore_price: bores })
+}
+
+/// What a step of the comparison with the full model found; where its computation fails, a check that fails.
+fn computed<T>(
+    found: Result<T, ComputeError>,
+    name: &'static str,
+    limit: f64,
+    checks: &mut Vec<Check>,
+) -> Result<Option<T>, ComputeError> {
+    match found {
+        Err(error) if !error.is_input() => {
+            let what = format!("the comparison with the full model could not be computed: {error}");
+            checks.push(Check::at_most(name, what, f64::INFINITY, limit));
+            Ok(None)
+        }
+        found => found.map(Some),
+    }
 }
 
 fn estimated_error(estimate: &ErrorEstimate, target: f64) -> Check {

@@ -9,7 +9,7 @@ use crate::app::error::ComputeError;
 use crate::app::scene::contacts::accept_contacts;
 use crate::app::scene::structure::needed_modes;
 use crate::app::scene::{
-    AssembledHousing, CoupledStructure, MachineScene, RingsInHousing, bearing_setup, doubts, race_contacts,
+    AssembledHousing, CoupledStructure, MachineScene, RingsInHousing, bearing_setup, contrast, doubts, race_contacts,
 };
 use crate::fe::mesh::Mesh;
 use crate::fe::modal::{FullModes, Mechanisms, ModalSurvey, ModeRange};
@@ -222,7 +222,7 @@ fn housing_alone(case: &Case, watch: &impl Watch) -> Result<ModesResult, Compute
     Ok(ModesResult { housing: Some((mesh, model)), ..ModesResult::new(base, survey, doubts) })
 }
 
-/// Names the place of the key that asks for more modes than the model has.
+/// Names the place of the key that asks for more modes than the model has, or the parts whose stiffnesses are too far apart.
 fn asked_for(case: &Case) -> impl FnOnce(ComputeError) -> ComputeError {
     move |error| match (case.modes.extent, error) {
         (ModeRange::Count(count), ComputeError::Linalg(LinalgError::TooManyModes { available, .. })) => {
@@ -232,6 +232,15 @@ fn asked_for(case: &Case) -> impl FnOnce(ComputeError) -> ComputeError {
             );
             case.broken(&rule.at("modes.count")).into()
         }
+        (
+            _,
+            ComputeError::Linalg(
+                error @ (LinalgError::Iteration(_)
+                | LinalgError::NotPositiveDefinite { .. }
+                | LinalgError::NearlySingular { .. }
+                | LinalgError::IllConditioned { .. }),
+            ),
+        ) => ComputeError::Failed { what: error.to_string(), help: contrast(case) },
         (_, error) => error,
     }
 }

@@ -6,7 +6,7 @@ use crate::app::scene::{RunModel, Scene};
 use crate::numerics::ode::{
     BlowUp, Instant as Now, Integration, Method, Observer, Schedule, Snapshot, State, Statistics, TransientError,
 };
-use crate::numerics::series::{SeriesError, TimeSeries, TimeWindow};
+use crate::numerics::series::{SeriesError, TimeSeries, TimeWindow, tolerance_steps};
 use crate::system::{Column, EnergyBalance, EnergyMeter, Recorder, RunRecord, Simulated};
 use sha2::{Digest, Sha256};
 use std::time::Instant;
@@ -125,6 +125,9 @@ impl<R: Recording> Simulation<R> {
     ) -> Result<Self, ComputeError> {
         let start_s = state.t;
         let mut schedule = Schedule::covering(span.duration, 1.0 / span.output_hz, model.step)?;
+        // an end between two samples has none beyond it
+        let tolerance = tolerance_steps(start_s.abs() + span.duration, schedule.interval);
+        schedule.intervals = schedule.intervals.min((span.duration * span.output_hz + tolerance) as u64);
         let wanted = usize::try_from(schedule.intervals).unwrap_or(usize::MAX).saturating_add(1);
         let (ratio, step) = (schedule.steps_per_interval, schedule.step());
         let recorder = Recorder::new(&system, ratio, step, wanted)?;

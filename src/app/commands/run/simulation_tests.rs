@@ -210,6 +210,15 @@ fn what_is_on_disk_is_what_would_be_in_memory() {
     assert!(error.is_input());
 }
 
+#[test]
+fn no_sample_lies_beyond_the_end() {
+    for (end, rows) in [("1e-3", 401), ("1.001e-3", 401), ("1.0025e-3", 402)] {
+        let case = Case::example("scenes/smooth", &[&format!("transient.end={end}"), "transient.modes=7"]);
+        let result = compute_run(&case, &Unwatched).unwrap();
+        assert_eq!(Recording::rows(&result.simulation.record), rows, "{end}");
+    }
+}
+
 /// A simulation with this signal at its one sensor, 100 kHz.
 fn with_signal(values: Vec<f64>) -> Simulation {
     let mut record = RunRecord::blank(RecordLayout { sensors: vec!["P1".to_owned()], ..RecordLayout::default() });

@@ -63,6 +63,10 @@ fn one_value_exceeds_the_other() {
         ("speed.profile[1].time=0.2", "found 0.2, expected more than the time before it (0.2)"),
         ("accuracy.band_hz[1]=0", "found 0, expected more than the lowest frequency (0)"),
         ("transient.end=0.5", "found 0.5, expected more than `transient.start` (0.5)"),
+        (
+            "transient.end=0.500001",
+            "found 0.500001, expected at least one interval of `transient.output_hz` after `transient.start` (0.50001)",
+        ),
         ("analysis.envelope[0].to=2.3", "found 2.3, expected more than `from` (2.3)"),
     ] {
         full(argument, rule);
@@ -77,7 +81,7 @@ fn one_value_stays_below_the_other() {
         ("ring.supports[0].to_deg=541", "found 541, expected at most a full turn after `from_deg` (540)"),
         ("bearing.radial_play=2e-4", "found 2e-4, expected at most a tenth of the ball's radius either way (1e-4)"),
         ("bearing.radial_play=-2e-4", "found -2e-4, expected at most a tenth of the ball's radius either way (1e-4)"),
-        ("bearing.defects[0].depth=1e-3", "found 0.001, expected below `bearing.ball_radius` (0.001)"),
+        ("bearing.defects[0].depth=5e-4", "found 5e-4, expected below half `bearing.ball_radius` (5e-4)"),
         ("transient.step=3", "found 3, expected below the simulated time (2)"),
         ("analysis.high_pass_hz=50000", "found 50000, expected below half of `transient.output_hz` (50000)"),
         ("bearing.defects[0].rim_radius=0.375e-3", "found 3.75e-4, expected below half the defect's length (3.75e-4)"),
