@@ -65,29 +65,31 @@ fn a_healthy_bearing_has_no_fault() {
 }
 
 /// Its outer race's line is there under ten times its weight, and no fault. Balls strike, so that each start is another signal: the chance of
-/// one scatters from 1e-9 to 6e-4 over starts.
+/// one scatters from 1e-14 to 6e-4 over forty starts, and in nine of them impulsiveness is 1 to 2.3.
 #[test]
 fn a_healthy_bearing_under_load_has_the_outer_races_line_and_no_fault() {
-    let mut chances: Vec<f64> = [0.1, 0.1003, 0.1011, 0.1027, 0.1042]
-        .map(|start: f64| {
-            let end = start + 0.3;
-            let mut set = short(0.3);
-            set.extend([
-                "shaft.gravity=[0,-98.1]".to_owned(),
-                format!("transient.start={start}"),
-                format!("transient.end={end}"),
-                format!("analysis.envelope=[{{from={start},to={end}}}]"),
-            ]);
-            let loaded = window("healthy", &set);
-            assert_eq!(faults(&loaded), [""; 0]);
-            let outer = &loaded.diagnosis.unwrap().faults[0];
-            assert!(outer.impulsiveness.unwrap() < 1.0, "{outer:#?}");
-            outer.false_alarm.unwrap()
-        })
-        .to_vec();
+    let of_start = |start: f64| {
+        let end = start + 0.3;
+        let mut set = short(0.3);
+        set.extend([
+            "shaft.gravity=[0,-98.1]".to_owned(),
+            format!("transient.start={start}"),
+            format!("transient.end={end}"),
+            format!("analysis.envelope=[{{from={start},to={end}}}]"),
+        ]);
+        let loaded = window("healthy", &set);
+        assert_eq!(faults(&loaded), [""; 0]);
+        let outer = &loaded.diagnosis.unwrap().faults[0];
+        (outer.impulsiveness.unwrap(), outer.false_alarm.unwrap())
+    };
+    let (mut impulsiveness, mut chances): (Vec<f64>, Vec<f64>) =
+        [0.1, 0.1003, 0.1011, 0.1027, 0.1042].map(of_start).into_iter().unzip();
+    impulsiveness.sort_by(f64::total_cmp);
     chances.sort_by(f64::total_cmp);
-    println!("{chances:?}");
-    // twenty starts have a median of 1e-7, and of 2e-8 with other round-off; a part without lines has 0.1 and more
+    println!("{impulsiveness:?} {chances:?}");
+    // four of five starts above 1 are one chance in a hundred
+    assert!(impulsiveness[1] < 1.0, "{impulsiveness:?}");
+    // medians of twenty starts are 1e-7 and 3e-8 with two kinds of round-off; a part without lines has 0.1 and more
     assert!(chances[2] < 1e-3, "{chances:?}");
 }
 
