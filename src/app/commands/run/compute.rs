@@ -154,8 +154,6 @@ fn run_in_space<C: Checkpoints>(
 pub(crate) struct SteppedRun<R> {
     /// The model, and why it is this one.
     pub(crate) choice: ModelChoice,
-    /// For how long its estimated error holds.
-    pub(crate) horizon: Option<Horizon>,
     /// The signals.
     pub(crate) simulation: Simulation<R>,
     /// Of each bearing its cage, the number of its balls and the orders of pure rolling.
@@ -174,23 +172,21 @@ pub(crate) fn step_run<C: Checkpoints>(
     match run {
         AskedRun::InPlane(run) => {
             let mut scene = Scene::around(stage, *run)?;
-            let mut choice = ModelChoice::of_case(*run, &scene)?;
+            let choice = ModelChoice::of_case(*run, &scene)?;
             scene.setup.balls_inertia = choice.model.balls_inertia;
-            let horizon = Horizon::of_any(run.case, run.transient, &scene, &mut choice);
             let span = span(run.transient);
             let simulation = Simulation::kept_from_rest(&scene, &choice.model, span, false, checkpoints, |_| ())?;
             let BearingSetup { cage, geometry, .. } = scene.setup;
-            Ok(SteppedRun { choice, horizon, simulation, bearings: vec![(cage, geometry.balls(), geometry.orders())] })
+            Ok(SteppedRun { choice, simulation, bearings: vec![(cage, geometry.balls(), geometry.orders())] })
         }
         AskedRun::InSpace(spatial, asked) => {
             let scene = MachineScene::around(stage, spatial, [asked.start, asked.end])?;
-            let mut choice = ModelChoice::in_space(spatial.case, asked, &scene)?;
-            let horizon = Horizon::of_any(spatial.case, asked, &scene, &mut choice);
+            let choice = ModelChoice::in_space(spatial.case, asked, &scene)?;
             let (system, state) = scene.at_rest(&choice.model, scene.start)?;
             let simulation = Simulation::kept(system, state, &choice.model, span(asked), false, checkpoints, |_| ())?;
             let own = scene.setup.bearings.into_iter().zip(scene.orders);
             let bearings = own.map(|(own, orders)| (own.cage, own.bearing.geometry().balls(), orders)).collect();
-            Ok(SteppedRun { choice, horizon, simulation, bearings })
+            Ok(SteppedRun { choice, simulation, bearings })
         }
     }
 }

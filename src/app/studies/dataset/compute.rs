@@ -206,7 +206,6 @@ impl DatasetPlan {
         let mut through = ThroughChannel { recorder: &signal.recorder, stop: work.stop };
         let run = step_run(&asked, stage, &mut through)?;
         record.model_of(&run.choice, run.simulation.modes);
-        record.estimate_held_s = run.horizon.map(|horizon| horizon.held_s);
         let recorder = &signal.recorder;
         let before_s = recorder.settling as f64 / recorder.rate_hz;
         let from = run.simulation.start_s + before_s;

@@ -63,8 +63,6 @@ pub struct SignalRecord {
     pub step_s: Option<f64>,
     /// Its estimated error relative to the RMS, in the band up to half of the sampling rate, while nearby solutions stay together.
     pub estimated_error: Option<f64>,
-    /// How long that was seen to hold, as `plummer run` tells, s.
-    pub estimate_held_s: Option<f64>,
     /// SHA-256 of the samples, little-endian.
     pub sha256: Option<String>,
     /// Damage, as `bearing.defects` of a case has it.
@@ -143,7 +141,6 @@ impl SignalRecord {
             method: None,
             step_s: None,
             estimated_error: None,
-            estimate_held_s: None,
             sha256: None,
             faults: signal.faults.clone(),
             drawn: signal.drawn.clone(),
@@ -292,7 +289,7 @@ fn text(value: &Value) -> Option<String> {
 }
 
 /// The first columns of the table.
-const FIXED: [&str; 25] = [
+const FIXED: [&str; 24] = [
     "signal",
     "file",
     "row",
@@ -316,7 +313,6 @@ const FIXED: [&str; 25] = [
     "method",
     "step_s",
     "estimated_error",
-    "estimate_held_s",
     "sha256",
 ];
 
