@@ -228,16 +228,16 @@ impl SymmetricMatrix {
         let (lanes, product) = (lanes.as_chunks_mut::<L>().0, product.as_chunks_mut::<L>().0);
         for tile in (0..self.order()).step_by(TILE) {
             let rows = tile..(tile + TILE).min(self.order());
-            for lane in 0..x.ncols() {
-                let column = x.col(lane).subrows(tile, rows.len());
+            for (lane, column) in x.col_iter().enumerate() {
+                let column = column.subrows(tile, rows.len());
                 rows.clone().zip(column.iter()).for_each(|(row, &entry)| lanes[place(row)][lane] = entry);
             }
         }
         multiply(&self.offsets, &self.rows, values, lanes, product);
         for tile in (0..self.order()).step_by(TILE) {
             let rows = tile..(tile + TILE).min(self.order());
-            for lane in 0..x.ncols() {
-                let column = y.rb_mut().col_mut(lane).subrows_mut(tile, rows.len());
+            for (lane, column) in y.rb_mut().col_iter_mut().enumerate() {
+                let column = column.subrows_mut(tile, rows.len());
                 rows.clone().zip(column.iter_mut()).for_each(|(row, entry)| *entry = product[place(row)][lane]);
             }
         }
