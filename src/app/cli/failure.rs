@@ -11,7 +11,7 @@ use crate::app::error::ComputeError;
 use crate::app::shell_word::{cut, printable};
 use crate::files::FileError;
 use crate::formats::FormatError;
-use signal_hook::consts::{SIGABRT, SIGINT, SIGTERM, SIGXFSZ};
+use signal_hook::consts::{SIGINT, SIGTERM, SIGXFSZ};
 use signal_hook::flag;
 use signal_hook::iterator::Signals;
 use std::io;
@@ -185,15 +185,13 @@ pub(super) fn fail_at_limits() -> Result<(), CliError> {
         let text = text.or_else(|| payload.downcast_ref::<&str>().copied());
         let text = text.unwrap_or_default();
         if text.contains("AllocError") {
-            let _ = io::stderr().write_all(b"error: the memory does not suffice for a matrix\nhelp: raise its limit (ulimit -v), or use fewer --threads\n");
+            let _ = io::stderr().write_all(b"\nerror: the memory does not suffice for a matrix\nhelp: raise its limit (ulimit -v), or use fewer --threads\n");
             signal_hook::low_level::exit(1);
         }
         usual(panic);
     }));
     heap::explain_aborts().map_err(not_caught)?;
-    let always = Arc::new(AtomicBool::new(true));
-    flag::register_conditional_shutdown(SIGABRT, 1, Arc::clone(&always)).map_err(not_caught)?;
-    flag::register(SIGXFSZ, always).map_err(not_caught)?;
+    flag::register(SIGXFSZ, Arc::new(AtomicBool::new(true))).map_err(not_caught)?;
     Ok(())
 }
 

@@ -21,8 +21,9 @@ const KEPT: c_int = 256 << 20;
 /// threads leave gaps: 2.7 instead of 2.3 GB at 244 242 degrees of freedom.
 const OWN_PAGES: c_int = 32 << 20;
 
-/// What an abort says: an allocation that fails ends so, after Rust has told its size.
-const ABORTED: &str = "error: the program was aborted; most likely the memory does not suffice\n\
+/// What an abort says: an allocation that fails ends so, after Rust has told its size. Another thread may have told half of its
+/// own, hence the line break.
+const ABORTED: &str = "\nerror: the program was aborted; most likely the memory does not suffice\n\
     help: raise its limit (ulimit -v, a container's), use fewer --threads, or compute a coarser mesh\n";
 
 unsafe extern "C" {
@@ -39,7 +40,7 @@ pub(super) fn keep_freed_memory() {
     }
 }
 
-/// Lets an abort say what to do.
+/// Lets an abort say what to do, and end with exit code 1.
 ///
 /// # Errors
 /// When the system does not let signals be caught.
@@ -47,7 +48,8 @@ pub(super) fn explain_aborts() -> io::Result<()> {
     let say = || {
         // SAFETY: `write` is safe in a signal handler; the text is as long as it says, and lives as long as the program.
         unsafe { write(2, ABORTED.as_ptr().cast(), ABORTED.len()) };
+        signal_hook::low_level::exit(1);
     };
-    // SAFETY: the action allocates nothing, takes no lock and cannot panic.
+    // SAFETY: the action allocates nothing, takes no lock and cannot panic; exit is safe in a signal handler.
     unsafe { signal_hook::low_level::register(SIGABRT, say) }.map(|_| ())
 }
