@@ -111,7 +111,7 @@ impl RingsAndCentres {
 #[cfg(test)]
 mod tests {
     use crate::app::case::{Case, Source};
-    use crate::app::scene::CondensedHousing;
+    use crate::app::scene::{CondensedHousing, doubts_of_case};
     use crate::numerics::Unwatched;
 
     fn refused(case: &Case) -> String {
@@ -120,20 +120,37 @@ mod tests {
         error.to_string()
     }
 
+    fn with_centre(centre: &str) -> Case {
+        let text = format!(
+            "[housing]\nmesh = \"ring_6_9_coarse.msh\"\nlength_unit = \"mm\"\n\
+             plane = {{ assumption = \"stress\", thickness = 4e-3 }}\n\
+             parts = [{{ group = \"housing\", material = \"steel\" }}]\n\
+             [condense]\ninterface = {{ centres = [{centre}] }}\n"
+        );
+        let path = format!("{}/meshes/small.toml", env!("CARGO_MANIFEST_DIR"));
+        Case::from_source(Source { path: path.into(), text, set: Vec::new() }).unwrap()
+    }
+
     #[test]
     fn a_centre_that_cannot_be_is_named_by_its_key() {
-        let said = |centre: &str| {
-            let text = format!(
-                "[housing]\nmesh = \"ring_6_9_coarse.msh\"\nlength_unit = \"mm\"\n\
-                 plane = {{ assumption = \"stress\", thickness = 4e-3 }}\n\
-                 parts = [{{ group = \"housing\", material = \"steel\" }}]\n\
-                 [condense]\ninterface = {{ centres = [{centre}] }}\n"
-            );
-            let path = format!("{}/meshes/small.toml", env!("CARGO_MANIFEST_DIR"));
-            refused(&Case::from_source(Source { path: path.into(), text, set: Vec::new() }).unwrap())
-        };
+        let said = |centre: &str| refused(&with_centre(centre));
         let far = said("{ group = \"bore\", point = [1e200, 0, 0], tie = \"mean\" }");
         assert!(far.starts_with("condense.interface.centres[0]: ") && far.contains("give `point` in m"), "{far}");
+    }
+
+    #[test]
+    fn a_centre_beside_its_bore_is_told() {
+        // the bore has a radius of 6 mm: the box about it ends there, and the diagonal's tenth is 1.7 mm
+        let told = |x: &str| {
+            doubts_of_case(&with_centre(&format!("{{ group = \"bore\", point = [{x}, 0, 0], tie = \"rigid\" }}")))
+                .unwrap()
+        };
+        let of_point =
+            |x: &str| told(x).into_iter().filter(|doubt| doubt.contains("centres[0].point")).collect::<Vec<_>>();
+        assert_eq!(of_point("7e-3"), Vec::<String>::new());
+        let far = of_point("36e-3");
+        let said = "condense.interface.centres[0].point lies 0.03 m beside its bore \"bore\", which reaches from (-0.006 m, -0.006 m) to (0.006 m, 0.006 m)";
+        assert!(far.len() == 1 && far[0].starts_with(said), "{far:?}");
     }
 
     #[test]

@@ -59,6 +59,7 @@ pub(crate) fn doubts(
         found.extend(deck::doubts(case, mesh));
         found.extend(plausible::housing(case, model));
         found.extend(housing_doubts(mesh, model));
+        found.extend(fit::centre_doubts(case, mesh, model));
     }
     for seat in case.seats() {
         let of_seat =

@@ -1,11 +1,14 @@
 //! Whether bearing, ring and bore fit into each other as those of any bearing do, a sentence each where they do not.
 //!
-//! From the axis outwards: balls between the races, the outer race in the innermost section of the ring, all sections in the bore.
+//! From the axis outwards: balls between the races, the outer race in the innermost section of the ring, all sections in the bore;
+//! in the place of a ring, the bore's centre node.
 //! What cannot be is refused where the case is read, or with the bore (`super::ring`).
 
 use super::ring::{BoreExtent, layer, metres};
 use crate::app::case::{self, Case};
 use crate::app::error::ComputeError;
+use crate::fe::mesh::Mesh;
+use crate::fe::model::HousingModel;
 
 /// Distance of the outer race from the material of its ring that is told, over the section's height: rectangles miss
 /// the faces of grooved sections.
@@ -98,4 +101,32 @@ pub(super) fn filled(bore: &str, seat: &BoreExtent, face: f64, height: f64) -> O
             metres(gap)
         )
     })
+}
+
+/// Distance of a centre node from the box about its bore that is told, over the diagonal of the box. The box about half a bore
+/// ends at its axis.
+const BESIDE: f64 = 0.1;
+
+/// Centre nodes that lie beside their bores. Groups that cannot be bores are refused where the housing is condensed.
+pub(super) fn centre_doubts(case: &Case, mesh: &Mesh, model: &HousingModel) -> Vec<String> {
+    let told = |(index, centre): (usize, &case::Centre)| {
+        let bore = model.group_on_housing(mesh, &centre.group, "the centre node").ok()?;
+        let nodes = bore.nodes.iter().filter(|&&node| model.used[node]).map(|&node| model.coordinates()[node]);
+        let [low, high] = nodes.fold([[f64::INFINITY; 3], [f64::NEG_INFINITY; 3]], |[low, high], place| {
+            [[0, 1, 2].map(|k| place[k].min(low[k])), [0, 1, 2].map(|k| place[k].max(high[k]))]
+        });
+        let length = |of: &dyn Fn(usize) -> f64| (0..model.dimension).map(|k| of(k).powi(2)).sum::<f64>().sqrt();
+        let beside = length(&|k| (low[k] - centre.point[k]).max(centre.point[k] - high[k]).max(0.0));
+        (beside > BESIDE * length(&|k| high[k] - low[k])).then(|| {
+            let corner = |place: [f64; 3]| place[..model.dimension].iter().map(|&x| metres(x)).collect::<Vec<_>>().join(", ");
+            format!(
+                "condense.interface.centres[{index}].point lies {} beside its bore \"{}\", which reaches from ({}) to ({}): the tie bridges that as a rigid arm; check the point (m, in the mesh's axes)",
+                metres(beside),
+                centre.group,
+                corner(low),
+                corner(high)
+            )
+        })
+    };
+    case.condense.interface.centres().iter().enumerate().filter_map(told).collect()
 }

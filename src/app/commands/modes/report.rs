@@ -98,13 +98,16 @@ fn head(case: &Case, result: &ModesResult, command: &str) -> Report {
         let found = expected.found_hz.map_or_else(|| "none".to_owned(), |hz| format!("{} Hz", significant(hz, 4)));
         report = report.headline(&expected.what, found, Verdict::of(expected.ok));
     }
+    let basis = &result.survey.basis;
+    let (label, text, mut verdict) = completeness(basis.count_check);
     if let Some(unknown) = result.unknown() {
         report = report.headline("Eigenfrequencies", unknown, Verdict::Bad);
+        if verdict == Verdict::Ok {
+            // the count is of the same matrix, with the same round-off
+            verdict = Verdict::None;
+        }
     }
-    report = headlines(report, result);
-    let basis = &result.survey.basis;
-    let (label, text, verdict) = completeness(basis.count_check);
-    report = report.headline(label, text, verdict);
+    report = headlines(report, result).headline(label, text, verdict);
     if let Some(first) = basis.frequencies_hz.get(basis.rigid_modes) {
         let first = format!("{} Hz", significant(*first, 5));
         report = report.headline("First elastic mode", first, Verdict::None);

@@ -113,7 +113,7 @@ impl ModelChoice {
         let grown = self.growth > 1.0 && together <= self.growth * target;
         let help = match part.what {
             SUPERELEMENT | CONDENSATION => &format!(
-                "condense with more vectors by condense.fixed_interface_modes: the error falls with the cube of their highest frequency, and {{ up_to_hz = {:.1e} }} is enough",
+                "condense with more vectors by condense.fixed_interface_modes: this part falls about with the cube of their highest frequency; try {{ up_to_hz = {:.1e} }}",
                 self.complete_for_hz
             ),
             "method" if given("largest step") => "leave transient.step to the program",
@@ -124,7 +124,7 @@ impl ModelChoice {
                 "transient.residual = true lets the modes that are left out act statically"
             }
             _ if grown && !given(part.what) => &format!(
-                "impacts of the balls amplify errors up to {} times, which the choice of the model does not count; accuracy.target = {} makes up for it",
+                "impacts of the balls amplify errors up to {} times, which the choice of the model does not count; accuracy.target = {} allows for that",
                 significant(self.growth, 2),
                 significant(target / self.growth, 2)
             ),
