@@ -129,7 +129,6 @@ const OF_THREAD: usize = (2 << 20) + (256 << 10);
 /// [`CliError`] when the input is wrong, the computation fails, its answer is bad, or a file cannot be written.
 pub(crate) fn execute(arguments: &Arguments, to: &mut impl Write) -> Result<(), CliError> {
     arguments::check_set(arguments)?;
-    #[cfg(feature = "mumps")]
     crate::numerics::linalg::check_asked().map_err(|error| CliError::input(error.to_string()))?;
     let options = &arguments.options;
     let threads = options.cores();

@@ -6,6 +6,7 @@ use super::{CliError, Options};
 use crate::app::case::Case;
 use crate::app::shell_word::printable;
 use crate::files;
+use crate::numerics::linalg::launched;
 use serde::Serialize;
 use serde_json::Value;
 use std::fs::{self, File, TryLockError};
@@ -124,7 +125,10 @@ impl OutputFolder {
         match take(&self.path) {
             Ok(true) => Ok(()),
             Ok(false) => Err(CliError::input(format!("another plummer writes into {}", self.path.display()))
-                .with_help("wait for its end, or choose another folder with --out")),
+                .with_help(match cfg!(not(feature = "mumps-mpi")) && launched() {
+                    true => "processes that MPI starts compute together if plummer is built with --features mumps-mpi (docs/how-to/large-meshes.md); this one is not",
+                    false => "wait for its end, or choose another folder with --out",
+                })),
             Err(error) if error.kind() == io::ErrorKind::NotFound => Ok(()),
             Err(error) => Err(CliError::folder(&self.path, &error)),
         }

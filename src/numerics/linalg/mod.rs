@@ -65,8 +65,7 @@ pub(crate) use mumps::joined;
 pub(crate) use ordering::{Ordering, Pattern};
 pub use plan::FactorChoice;
 pub(in crate::numerics::linalg) use plan::Plan;
-#[cfg(feature = "mumps")]
-pub(crate) use plan::check_asked;
+pub(crate) use plan::{check_asked, launched};
 pub use sparse::{SparseMatrix, TripletBuilder, sparse_times_dense, submatrix, transpose_times_dense};
 pub(crate) use sparse::{congruence, placed, scattered_rows};
 pub(in crate::numerics::linalg) use symmetric::SymmetricMatrix;

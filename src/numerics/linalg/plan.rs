@@ -45,8 +45,10 @@ pub(super) enum Plan {
 }
 
 /// Variable that says who factorises: `own`, `mumps`, `mumps-low-rank`, `mumps-out-of-core`.
-#[cfg(feature = "mumps")]
 const CHOICE: &str = "PLUMMER_FACTOR";
+
+/// Variables of which each launcher of MPI sets one.
+const LAUNCHED: [&str; 3] = ["OMPI_COMM_WORLD_SIZE", "PMIX_RANK", "PMI_RANK"];
 
 /// Share of the memory that is free up to which a factor of low rank may take it, and of what a limit of the process leaves any factor:
 /// fronts and the iteration's vectors need the rest.
@@ -92,6 +94,26 @@ pub(crate) fn check_asked() -> Result<(), LinalgError> {
         Asked::Own | Asked::Mumps(Way::InCore, _) => Ok(()),
         Asked::Nobody | Asked::Mumps(..) => mumps::check_root(),
     }
+}
+
+/// Refuses a choice that this build cannot serve.
+///
+/// # Errors
+/// [`LinalgError::Refused`] for any but our own factor.
+#[cfg(not(feature = "mumps"))]
+pub(crate) fn check_asked() -> Result<(), LinalgError> {
+    match std::env::var_os(CHOICE) {
+        Some(asked) if !asked.is_empty() && asked != "own" => Err(LinalgError::Refused(format!(
+            "the variable {CHOICE} is \"{}\", and this plummer is built without MUMPS; expected own; unset the variable, or build with --features mumps",
+            asked.to_string_lossy()
+        ))),
+        _ => Ok(()),
+    }
+}
+
+/// Whether a launcher of MPI started this process, perhaps beside others.
+pub(crate) fn launched() -> bool {
+    LAUNCHED.iter().any(|name| std::env::var_os(name).is_some())
 }
 
 impl Plan {

@@ -11,6 +11,7 @@
 use super::ffi::{self, Job, LONGEST_PATH, Real};
 use super::files::MACHINE;
 use super::structure::Structure;
+use crate::numerics::linalg::launched;
 use std::collections::HashMap;
 use std::ffi::{OsStr, c_int, c_void};
 use std::os::unix::ffi::OsStrExt;
@@ -71,9 +72,6 @@ const TAG: c_int = 71;
 /// How long a process that waits sleeps.
 const PAUSE: Duration = Duration::from_millis(2);
 
-/// Variables of which each launcher sets one.
-const LAUNCHED: [&str; 3] = ["OMPI_COMM_WORLD_SIZE", "PMIX_RANK", "PMI_RANK"];
-
 static WORLD: OnceLock<World> = OnceLock::new();
 
 /// Whether the others have been told that rank 0 ends.
@@ -129,8 +127,7 @@ pub(in crate::numerics::linalg) fn ranks() -> usize {
 /// Begins MPI where a launcher started the program. Whether this process has joined another one's jobs, until their end: it
 /// has nothing left to do.
 pub(crate) fn joined() -> bool {
-    let launched = LAUNCHED.iter().any(|name| std::env::var_os(name).is_some());
-    if !launched || world().rank == 0 {
+    if !launched() || world().rank == 0 {
         return false;
     }
     serve();
