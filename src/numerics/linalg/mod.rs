@@ -22,6 +22,7 @@ mod followers;
 mod front;
 mod harmonic;
 mod idle;
+mod launch;
 mod lowest;
 mod lu;
 mod memory;
@@ -57,6 +58,7 @@ pub use harmonic::{
 };
 pub(crate) use harmonic::{complex_columns, complex_solve};
 pub(crate) use idle::{acting_generalised_eigen, acting_motions, congruent};
+pub(crate) use launch::launched;
 pub(crate) use lu::SmallLu;
 #[cfg(feature = "mumps")]
 pub(crate) use mumps::abandon;
@@ -65,7 +67,7 @@ pub(crate) use mumps::joined;
 pub(crate) use ordering::{Ordering, Pattern};
 pub use plan::FactorChoice;
 pub(in crate::numerics::linalg) use plan::Plan;
-pub(crate) use plan::{check_asked, launched};
+pub(crate) use plan::check_asked;
 pub use sparse::{SparseMatrix, TripletBuilder, sparse_times_dense, submatrix, transpose_times_dense};
 pub(crate) use sparse::{congruence, placed, scattered_rows};
 pub(in crate::numerics::linalg) use symmetric::SymmetricMatrix;

@@ -47,9 +47,6 @@ pub(super) enum Plan {
 /// Variable that says who factorises: `own`, `mumps`, `mumps-low-rank`, `mumps-out-of-core`.
 const CHOICE: &str = "PLUMMER_FACTOR";
 
-/// Variables of which each launcher of MPI sets one.
-const LAUNCHED: [&str; 3] = ["OMPI_COMM_WORLD_SIZE", "PMIX_RANK", "PMI_RANK"];
-
 /// Share of the memory that is free up to which a factor of low rank may take it, and of what a limit of the process leaves any factor:
 /// fronts and the iteration's vectors need the rest.
 #[cfg(feature = "mumps")]
@@ -109,11 +106,6 @@ pub(crate) fn check_asked() -> Result<(), LinalgError> {
         ))),
         _ => Ok(()),
     }
-}
-
-/// Whether a launcher of MPI started this process, perhaps beside others.
-pub(crate) fn launched() -> bool {
-    LAUNCHED.iter().any(|name| std::env::var_os(name).is_some())
 }
 
 impl Plan {
