@@ -66,7 +66,7 @@ def features(signal: NDArray[np.float32], lines_hz: list[float]) -> list[float]:
 lines = np.column_stack([data["bpfo_hz"], data["bpfi_hz"], 2 * data["bsf_hz"]])
 x = np.array([features(signal, list(own)) for signal, own in zip(data.signals, lines)])
 y, specimen = data.labels, data["specimen"]
-train, test = ((data.splits == part) & data["trusted"] for part in ("train", "test"))
+train, test = ((data.splits == part) & data["trusted"].astype(bool) for part in ("train", "test"))
 assert not set(specimen[train]) & set(specimen[test])
 
 # %% [markdown]

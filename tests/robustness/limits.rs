@@ -4,11 +4,9 @@
 //! Conditions: a shell with `ulimit`.
 //! Parameters: 60 to 400 MB of address space, 50 KiB a file.
 
-use std::fs;
 use std::path::Path;
 use std::process::{Command, Output};
 
-use super::grids::{Grids, steps};
 use super::program::{errors, scratch};
 
 /// The healthy scene's run under limits of the shell.
@@ -78,6 +76,7 @@ fn threads_that_cannot_be_started_are_an_error() {
 #[cfg(not(feature = "mumps"))]
 #[test]
 fn a_factor_beyond_the_limits_of_the_process_is_refused_with_its_size() {
+    use super::grids::{Grids, steps};
     let folder = scratch("factor-limits");
     let mut mesh = Grids::default();
     let edge = steps(0.0, 0.1, 26);
@@ -85,7 +84,7 @@ fn a_factor_beyond_the_limits_of_the_process_is_refused_with_its_size() {
     mesh.write(&folder);
     let housing = "mesh = 'grid.msh'\nlength_unit = 'm'\nparts = [{ group = 'block', material = 'aluminium' }]\n\
         supports = [{ group = 'block_bottom', fixed = 'all' }]";
-    fs::write(folder.join("case.toml"), format!("[housing]\n{housing}\n[modes]\ncount = 4\n")).unwrap();
+    std::fs::write(folder.join("case.toml"), format!("[housing]\n{housing}\n[modes]\ncount = 4\n")).unwrap();
     for (option, words) in [("-v", "process's address space (ulimit -v)"), ("-d", "process's data (ulimit -d)")] {
         let under = |megabytes: usize| {
             let program = env!("CARGO_BIN_EXE_plummer");
