@@ -114,7 +114,7 @@ fn files_that_are_damaged_or_gone_are_told() {
         std::fs::write(path, vec![0x3f; length]).expect("writable");
     };
     let removal = |path: &std::path::Path| std::fs::remove_file(path).expect("a file");
-    let ways: [(fn(&std::path::Path), &str); 2] = [(damage, "are damaged"), (removal, "are gone")];
+    let ways = [(damage as fn(&std::path::Path), "are damaged"), (removal, "are gone")];
     for (does, words) in ways {
         for double in [false, true] {
             let numbers = Numbers::new(&a, Kind::Indefinite, Way::OutOfCore, double).expect("regular");
