@@ -1,7 +1,5 @@
 //! The `plummer` program; everything it does is in the library.
 
-use std::process::ExitCode;
-
-fn main() -> ExitCode {
+fn main() {
     plummer::app::cli::main()
 }

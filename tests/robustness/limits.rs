@@ -1,7 +1,7 @@
 //! Reference: the exit codes.
 //! Goal: limits of the system and requests beyond all measure end in a message and exit code 1 or 2, not in a signal.
 //! Sketch: the program under `ulimit`, with little memory and files that may not grow; steps that no computer would end.
-//! Conditions: a shell with `ulimit`.
+//! Conditions: a shell with `ulimit`; a C compiler.
 //! Parameters: 60 to 400 MB of address space, 50 KiB a file.
 
 use std::path::Path;
@@ -97,4 +97,59 @@ fn a_factor_beyond_the_limits_of_the_process_is_refused_with_its_size() {
         assert_eq!(refused.status.code(), Some(1));
         assert!(errors(&refused).starts_with("error: the factor of a "), "{}", errors(&refused));
     }
+}
+
+/// What OpenBLAS 0.3.21 does: a thread of its own from the beginning, a buffer a thread, no end without memory for it, and a wait for
+/// that thread at the end.
+const OPENBLAS: &str = r#"
+#include <pthread.h>
+#include <stdio.h>
+#include <stdlib.h>
+static int threads = 2;
+static pthread_t worker;
+static void *buffers[2];
+static void *take(void *place) {
+    volatile char *volatile buffer = *(void **)place;
+    while (!buffer) buffer = malloc(128u << 20);
+    *(void **)place = (void *)buffer;
+    return NULL;
+}
+__attribute__((constructor)) static void begin(void) { pthread_create(&worker, NULL, take, &buffers[1]); }
+__attribute__((destructor)) static void end(void) { pthread_join(worker, NULL); }
+int openblas_get_num_threads(void) { return threads; }
+void openblas_set_num_threads(int count) { threads = count; }
+void cblas_dsyrk(int order, int triangle, int transposed, int n, int k, double alpha, const double *a, int lda, double beta, double *c, int ldc) {
+    take(&buffers[0]);
+    fprintf(stderr, "buffer for %d\n", threads);
+}
+"#;
+
+#[test]
+fn openblas_without_memory_is_an_error_and_no_wait() {
+    let folder = scratch("openblas");
+    std::fs::write(folder.join("openblas.c"), OPENBLAS).unwrap();
+    let library = ["-shared", "-fPIC", "-o", "openblas.so", "openblas.c"];
+    let compiled = Command::new("cc").args(library).current_dir(&folder).status().unwrap();
+    assert!(compiled.success());
+    let mesh = Path::new(env!("CARGO_MANIFEST_DIR")).join("meshes/pedestal.msh");
+    let case = format!(
+        "[housing]\nmesh = {mesh:?}\nlength_unit = 'mm'\nparts = [{{ group = 'housing', material = 'aluminium' }}]\n\
+        supports = [{{ group = 'feet', fixed = 'all' }}]\n[modes]\nband_hz = [7e4, 9e4]\n"
+    );
+    std::fs::write(folder.join("case.toml"), case).unwrap();
+    let under = |limit: &str| {
+        let program = env!("CARGO_BIN_EXE_plummer");
+        let line = format!(
+            "ulimit -v {limit}; exec timeout 60 env LD_PRELOAD=./openblas.so {program} modes case.toml --quiet --threads 1 --out out --force"
+        );
+        Command::new("sh").arg("-c").arg(line).env("RUST_BACKTRACE", "0").current_dir(&folder).output().unwrap()
+    };
+    let output = under("unlimited");
+    let said = String::from_utf8_lossy(&output.stderr);
+    assert!(output.status.success() && said.contains("buffer for 1"), "{said}");
+    let codes = (4..12).map(|step| under(&(25_000 * step).to_string()));
+    let refused = codes.inspect(|output| assert!(matches!(output.status.code(), Some(0..=2)), "{:?}", output.status));
+    let refused = refused.filter(|output| errors(output).contains("OpenBLAS")).collect::<Vec<_>>();
+    assert!(!refused.is_empty(), "no limit was too low");
+    assert!(refused.iter().all(|output| output.status.code() == Some(1)));
 }

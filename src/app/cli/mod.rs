@@ -33,7 +33,6 @@ mod verify;
 use std::ffi::OsString;
 use std::io::{self, Write};
 use std::path::Path;
-use std::process::ExitCode;
 use std::time::Duration;
 
 use clap::Parser;
@@ -60,10 +59,14 @@ use crate::app::shell_word::{cut, printable};
 /// Stack of the thread that computes, in bytes: what Linux gives a process by default, whatever `ulimit -s` says.
 const STACK: usize = 8 << 20;
 
-/// Runs the program on the process's arguments and returns its exit code.
-#[must_use]
-pub fn main() -> ExitCode {
-    ExitCode::from(main_of(std::env::args_os().skip(1).collect()))
+/// Runs the program on the process's arguments, and ends with its exit code.
+pub fn main() -> ! {
+    let code = main_of(std::env::args_os().skip(1).collect());
+    #[cfg(feature = "mumps-mpi")]
+    crate::numerics::linalg::leave();
+    let _ = io::stdout().flush();
+    // at once: what OpenBLAS does last is to wait for its threads, which wait for ever where memory is short
+    signal_hook::low_level::exit(code.into())
 }
 
 /// Runs the program on `arguments`, which do not begin with its name, and returns its exit code: 0, 1 or 2. Once a process;

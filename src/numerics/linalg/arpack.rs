@@ -11,9 +11,9 @@
 //! covers a whole iteration, first call to last.
 //!
 //! **Reproducibility.** The start vector is ours (`info = 1`), not ARPACK's random one: the same
-//! problem gives the same bits.
+//! problem gives the same bits. BLAS works on one thread.
 
-use super::LinalgError;
+use super::{LinalgError, blas};
 use std::ffi::{c_char, c_double, c_int};
 use std::sync::{Mutex, PoisonError};
 
@@ -79,7 +79,8 @@ const TOLERANCE: f64 = 1e-10;
 /// length n.
 ///
 /// # Errors
-/// [`LinalgError::TooManyModes`] if the sizes do not fit, [`LinalgError::Iteration`].
+/// [`LinalgError::TooManyModes`] if the sizes do not fit, [`LinalgError::Iteration`], [`LinalgError::Refused`] where BLAS has no
+/// memory.
 pub(super) fn shift_invert(
     [n, count, basis]: [usize; 3],
     sigma: f64,
@@ -91,6 +92,7 @@ pub(super) fn shift_invert(
         return Err(LinalgError::TooManyModes { asked: count, available: n });
     }
     let _guard = ONE_ITERATION_AT_A_TIME.lock().unwrap_or_else(PoisonError::into_inner);
+    let _threads = blas::work_on(1)?;
     let (mut residual, mut basis_vectors) = (start_vector(n), vec![0.0; n * basis]);
     let (mut workd, mut workl) = (vec![0.0; 3 * n], vec![0.0; basis * (basis + 8)]);
     let (mut iparam, mut ipntr): ([c_int; 11], [c_int; 11]) = ([0; 11], [0; 11]);

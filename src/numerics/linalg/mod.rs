@@ -12,6 +12,8 @@
 mod arpack;
 mod band;
 mod basis;
+#[allow(unsafe_code)]
+mod blas;
 mod bound;
 mod cholesky;
 mod dense;
@@ -23,6 +25,8 @@ mod front;
 mod harmonic;
 mod idle;
 mod launch;
+#[allow(unsafe_code)]
+mod loaded;
 mod lowest;
 mod lu;
 mod memory;
@@ -63,7 +67,7 @@ pub(crate) use lu::SmallLu;
 #[cfg(feature = "mumps")]
 pub(crate) use mumps::abandon;
 #[cfg(feature = "mumps-mpi")]
-pub(crate) use mumps::joined;
+pub(crate) use mumps::{joined, leave};
 pub(crate) use ordering::{Ordering, Pattern};
 pub use plan::FactorChoice;
 pub(in crate::numerics::linalg) use plan::Plan;

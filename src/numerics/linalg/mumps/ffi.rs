@@ -5,15 +5,14 @@
 //!
 //! **State.** MUMPS keeps variables between calls and is not re-entrant: [`turn`] is held for each.
 
+use super::super::loaded;
 use super::structure::Structure;
 use std::ffi::{c_char, c_int, c_void};
-use std::ptr::NonNull;
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
 unsafe extern "C" {
     fn smumps_c(structure: *mut Structure<f32>);
     fn dmumps_c(structure: *mut Structure<f64>);
-    fn dlsym(library: *mut c_void, name: *const c_char) -> *mut c_void;
 }
 
 /// Fortran's name of all processes, to MUMPS.
@@ -154,8 +153,7 @@ unsafe extern "C" fn scotchfgraphbuild_(
     let unless = |array: *const c_int, same: *const c_int| if array == same { std::ptr::null() } else { array };
     // SAFETY: the functions have had these signatures since SCOTCH 4; MUMPS, which calls this routine, is linked with them.
     unsafe {
-        let [init, build] = [c"SCOTCH_graphInit", c"SCOTCH_graphBuild"]
-            .map(|name| NonNull::new(dlsym(std::ptr::null_mut(), name.as_ptr())));
+        let [init, build] = [c"SCOTCH_graphInit", c"SCOTCH_graphBuild"].map(loaded::function);
         *failed = match (init, build) {
             (Some(init), Some(build)) => {
                 let init: GraphInit = std::mem::transmute(init.as_ptr());
@@ -181,9 +179,8 @@ unsafe extern "C" fn scotchfgraphbuild_(
 
 /// Whether MUMPS finds that routine: it does unless the program was linked in an unusual way. Without it there is no low rank.
 pub(super) fn low_rank_is_safe() -> bool {
-    // SAFETY: the name ends with a zero; a null handle asks for the first of that name in the process, as the linker does.
-    let found = unsafe { dlsym(std::ptr::null_mut(), c"scotchfgraphbuild_".as_ptr()) };
-    std::ptr::eq(found, scotchfgraphbuild_ as *const c_void)
+    loaded::function(c"scotchfgraphbuild_")
+        .is_some_and(|found| std::ptr::eq(found.as_ptr(), scotchfgraphbuild_ as *const c_void))
 }
 
 /// The turn to call MUMPS, which is waited for.
@@ -195,17 +192,4 @@ pub(super) fn turn() -> MutexGuard<'static, ()> {
 #[cfg(feature = "mumps-mpi")]
 pub(super) fn turn_at_once() -> Option<MutexGuard<'static, ()>> {
     ONE_CALL_AT_A_TIME.try_lock().ok()
-}
-
-/// Tells OpenBLAS, if it is what MUMPS computes with, how many threads it may use.
-pub(super) fn limit_threads(threads: usize) {
-    // SAFETY: the name ends with a zero; a null handle asks all libraries of the process. The function has been
-    // `void (int)` since OpenBLAS has had it.
-    unsafe {
-        let found = dlsym(std::ptr::null_mut(), c"openblas_set_num_threads".as_ptr());
-        if let Some(found) = NonNull::new(found) {
-            let set: unsafe extern "C" fn(c_int) = std::mem::transmute(found.as_ptr());
-            set(threads.clamp(1, 1024) as c_int);
-        }
-    }
 }

@@ -17,7 +17,7 @@ mod way;
 mod world;
 
 use super::dense::pseudo_random;
-use super::{Kind, LinalgError, SymmetricMatrix, gigabytes};
+use super::{Kind, LinalgError, SymmetricMatrix, blas, gigabytes};
 use faer::MatMut;
 use faer::prelude::{Reborrow, ReborrowMut};
 use files::Folder;
@@ -30,9 +30,9 @@ use ffi::Real;
 pub(super) use files::check_root;
 pub(super) use way::Way;
 #[cfg(feature = "mumps-mpi")]
-pub(crate) use world::joined;
-#[cfg(feature = "mumps-mpi")]
 pub(super) use world::ranks;
+#[cfg(feature = "mumps-mpi")]
+pub(crate) use world::{joined, leave};
 
 /// Number of processes that compute together.
 #[cfg(not(feature = "mumps-mpi"))]
@@ -80,13 +80,13 @@ impl<T: Real> MumpsFactor<T> {
     ///
     /// # Errors
     /// [`LinalgError::NotPositiveDefinite`] for [`Kind::Definite`], [`LinalgError::NearlySingular`] for a pivot of zero,
-    /// [`LinalgError::Library`] where memory, disk or the library do not suffice.
+    /// [`LinalgError::Library`] where memory, disk or the library do not suffice, [`LinalgError::Refused`] where BLAS has no memory.
     pub(super) fn new(a: &SymmetricMatrix, kind: Kind, way: Way) -> Result<Self, LinalgError> {
         let order = a.order();
         let failed = |failure| told(failure, order, way);
         let mut folder = if way == Way::OutOfCore { Some(Folder::new()?) } else { None };
         let path = folder.as_ref().map_or(&[][..], Folder::bytes);
-        ffi::limit_threads(rayon::current_num_threads());
+        let _threads = blas::work_on(rayon::current_num_threads())?;
         let mut instance = Instance::<T>::new(kind == Kind::Definite, path).map_err(failed)?;
         // no checks and no scaling by MUMPS: the matrix is scaled here, and its order is given
         for (control, value) in
@@ -171,6 +171,8 @@ impl<T: Real> MumpsFactor<T> {
         if let Some((_, probe)) = &self.on_disk {
             sides.extend(probe.side());
         }
+        // one thread's buffer is there since the factorisation
+        let _threads = blas::work_on(rayon::current_num_threads());
         let solved = self.instance.lock().unwrap_or_else(PoisonError::into_inner).solve(&mut sides);
         let answered = sides.split_off(order * b.ncols());
         let failure = match (solved, &self.on_disk) {

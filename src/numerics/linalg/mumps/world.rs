@@ -11,9 +11,10 @@
 use super::ffi::{self, Job, LONGEST_PATH, Real};
 use super::files::MACHINE;
 use super::structure::Structure;
-use crate::numerics::linalg::launched;
+use crate::numerics::linalg::{blas, launched};
 use std::collections::HashMap;
 use std::ffi::{OsStr, c_int, c_void};
+use std::io::Write;
 use std::os::unix::ffi::OsStrExt;
 use std::os::unix::fs::DirBuilderExt;
 use std::path::PathBuf;
@@ -21,7 +22,7 @@ use std::ptr::null_mut;
 use std::sync::OnceLock;
 use std::sync::atomic::{AtomicBool, AtomicI32, Ordering};
 use std::time::Duration;
-use std::{fs, thread};
+use std::{fs, io, thread};
 
 /// Something of OpenMPI's that only its address is known of.
 #[repr(C)]
@@ -93,11 +94,16 @@ pub(super) struct Message {
     name: c_int,
     double: c_int,
     symmetry: c_int,
+    /// On how many BLAS works.
+    threads: c_int,
     folder: [u8; LONGEST_PATH + 1],
 }
 
 /// In a message: the process may end.
 const LEAVE: c_int = -3;
+
+const LEAVING: Message =
+    Message { job: LEAVE, name: 0, double: 0, symmetry: 0, threads: 1, folder: [0; LONGEST_PATH + 1] };
 
 const LENGTH: c_int = size_of::<Message>() as c_int;
 
@@ -144,7 +150,8 @@ pub(super) fn name(double: bool, symmetry: c_int, folder: &[u8]) -> Message {
     let mut path = [0; LONGEST_PATH + 1];
     path.iter_mut().take(LONGEST_PATH).zip(folder).for_each(|(to, &from)| *to = from);
     let name = NAMES.fetch_add(1, Ordering::Relaxed);
-    Message { job: Job::Begin as c_int, name, double: c_int::from(double), symmetry, folder: path }
+    let (double, threads) = (c_int::from(double), rayon::current_num_threads() as c_int);
+    Message { job: Job::Begin as c_int, name, double, symmetry, threads, folder: path }
 }
 
 /// Tells the other processes of a job that this one begins next.
@@ -169,7 +176,7 @@ fn send(message: &Message) {
 }
 
 fn received() -> Message {
-    let mut message = Message { job: LEAVE, name: 0, double: 0, symmetry: 0, folder: [0; LONGEST_PATH + 1] };
+    let mut message = LEAVING;
     loop {
         let mut found = 0;
         // SAFETY: MPI has begun; a status may be null; the message has room for as many bytes as are received, each of which is a
@@ -218,7 +225,13 @@ fn join<T: Real>(instances: &mut HashMap<c_int, Box<Structure<T>>>, message: &Me
         instances.insert(message.name, ffi::empty(message.symmetry, folder));
     }
     if let Some(structure) = instances.get_mut(&message.name) {
-        ffi::run(structure, job);
+        match blas::work_on(message.threads as usize) {
+            Ok(_threads) => ffi::run(structure, job),
+            Err(error) => {
+                let _ = writeln!(io::stderr(), "error: process {} of {}: {error}", world().rank, world().ranks);
+                abort();
+            }
+        }
     }
     if job == Job::End {
         instances.remove(&message.name);
@@ -228,14 +241,21 @@ fn join<T: Real>(instances: &mut HashMap<c_int, Box<Structure<T>>>, message: &Me
     }
 }
 
-/// Ends the other processes and MPI; called when the program exits.
+/// Ends the other processes and MPI before rank 0 ends.
+pub(crate) fn leave() {
+    if WORLD.get().is_some_and(|world| world.rank == 0) {
+        end();
+    }
+}
+
+/// The same, where the program exits before it comes to that.
 extern "C" fn end() {
     if ENDED.swap(true, Ordering::SeqCst) {
         return;
     }
     match ffi::turn_at_once() {
         Some(_turn) => {
-            send(&Message { job: LEAVE, name: 0, double: 0, symmetry: 0, folder: [0; LONGEST_PATH + 1] });
+            send(&LEAVING);
             // SAFETY: MPI has begun, and nobody is in it: this is its last call.
             unsafe { MPI_Finalize() };
         }
