@@ -280,3 +280,24 @@ fn two_hundred_kills_of_each_command() {
         torture("kills-long", rounds(200), 99, |name| only.is_empty() || only.split(',').any(|one| one == name));
     println!("{killed} kills before the end");
 }
+
+/// While METIS orders the housing's unknowns, on another thread than the one that the signal reaches.
+#[test]
+fn a_request_to_end_is_heard_while_the_unknowns_are_ordered() {
+    let case = Path::new(env!("CARGO_MANIFEST_DIR")).join("examples/housings/end_shield.toml");
+    let folder = scratch("ordered");
+    let ends = (2..20).map(|step: u64| {
+        let mut command = Command::new(env!("CARGO_BIN_EXE_plummer"));
+        command.args(["condense", "--no-cache", "--quiet", "--force", "--threads", "2", "--out", "out"]);
+        command.arg(&case).current_dir(&folder).stdout(Stdio::null()).stderr(Stdio::piped());
+        let child = command.spawn().unwrap();
+        std::thread::sleep(Duration::from_millis(20 * step));
+        assert!(Command::new("kill").args(["-TERM", &child.id().to_string()]).status().unwrap().success());
+        let output = child.wait_with_output().unwrap();
+        let said = String::from_utf8_lossy(&output.stderr).into_owned();
+        (output.status.code(), said)
+    });
+    let ends = ends.collect::<Vec<_>>();
+    assert!(ends.iter().all(|(code, _)| matches!(code, Some(0 | 1))), "{ends:?}");
+    assert!(ends.iter().any(|(_, said)| said.contains("error: interrupted")), "{ends:?}");
+}

@@ -74,6 +74,10 @@ pub fn main() -> ! {
 #[must_use]
 pub fn main_of(arguments: Vec<OsString>) -> u8 {
     heap::keep_freed_memory();
+    // before MPI begins, which takes the signals that nobody has taken
+    if let Err(error) = failure::fail_at_limits() {
+        return told(&error);
+    }
     #[cfg(feature = "mumps-mpi")]
     if crate::numerics::linalg::joined() {
         return 0;
@@ -113,14 +117,16 @@ fn on_arguments() -> u8 {
             return u8::try_from(error.exit_code()).unwrap_or(2);
         }
     };
-    let caught = failure::fail_at_limits().and_then(|()| failure::catch_interrupts());
-    match caught.and_then(|()| execute(&arguments, &mut io::stdout().lock())) {
+    match failure::catch_interrupts().and_then(|()| execute(&arguments, &mut io::stdout().lock())) {
         Ok(()) => 0,
-        Err(error) => {
-            error.report(&mut io::stderr().lock());
-            error.exit_code()
-        }
+        Err(error) => told(&error),
     }
+}
+
+/// The exit code of an error, which is told.
+fn told(error: &CliError) -> u8 {
+    error.report(&mut io::stderr().lock());
+    error.exit_code()
 }
 
 /// Address space of a thread, bytes: its stack of 2 MB, and what it allocates to begin.

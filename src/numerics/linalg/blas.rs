@@ -102,8 +102,9 @@ pub(super) fn work_on(threads: usize) -> Result<Threads, LinalgError> {
             return Ok(Threads(Some((blas, before))));
         }
     }
+    let fewer = if before > 1 { " set OPENBLAS_NUM_THREADS=1," } else { "" };
     Err(LinalgError::Refused(format!(
-        "OpenBLAS, with which ARPACK and MUMPS compute, has no memory for its buffer of {} MiB; raise the limit (ulimit -v), set OPENBLAS_NUM_THREADS=1, or install another BLAS (libblas3)",
+        "OpenBLAS, with which ARPACK and MUMPS compute, has no memory for its buffer of {} MiB; raise its limit (ulimit -v, -d),{fewer} or install another BLAS (libblas3)",
         BUFFER >> 20
     )))
 }

@@ -29,36 +29,43 @@ pub(super) struct Graph {
 }
 
 /// Nested dissection order of a graph: `order[new] = old` (Karypis and Kumar, SIAM J. Sci. Comput. 20 (1998)
-/// 359-392); `None` if METIS does not return one (out of memory).
+/// 359-392); `None` if METIS does not return one.
+///
+/// `METIS_NodeND` would take the process's handlers of SIGTERM and SIGABRT while it works, and jump back into METIS from any thread
+/// that such a signal reaches. `METIS_NodeNDP`, its twin for ParMETIS, leaves them alone.
 pub(super) fn nested_dissection(graph: &Graph) -> Option<Vec<usize>> {
     let nodes = graph.weights.len();
     if graph.neighbours.is_empty() {
         return Some((0..nodes).collect());
     }
-    let mut count = c_int::try_from(nodes).ok()?;
+    let count = c_int::try_from(nodes).ok()?;
     let mut options = [-1; metis_sys::METIS_NOPTIONS as usize];
     let (mut order, mut place) = (vec![0; nodes], vec![0; nodes]);
+    // for one process: of parts and separators, of which none is asked for, the whole alone
+    let mut sizes = [0];
     // METIS takes what it only reads by mutable pointers; copies keep the graph untouched whatever it does
     let (mut starts, mut neighbours, mut weights) =
         (graph.starts.clone(), graph.neighbours.clone(), graph.weights.clone());
     let _turn = TURN.lock().unwrap_or_else(PoisonError::into_inner);
     // SAFETY: `starts` has count + 1 entries that end at the length of `neighbours`, whose entries are below count
-    // (checked by whoever makes a `Graph`: `ordering::graph`); `weights`, `order` and `place` have count entries and
-    // `options` METIS_NOPTIONS; all outlive the call.
+    // (checked by whoever makes a `Graph`: `ordering::graph`); `weights`, `order` and `place` have count entries, `options`
+    // METIS_NOPTIONS and `sizes` 2 * 1 - 1; all outlive the call.
     let status = unsafe {
         metis_sys::METIS_SetDefaultOptions(options.as_mut_ptr());
         if nodes > LARGE {
             options[metis_sys::moptions_et_METIS_OPTION_RTYPE as usize] =
                 metis_sys::mrtype_et_METIS_RTYPE_SEP2SIDED as c_int;
         }
-        metis_sys::METIS_NodeND(
-            &mut count,
+        metis_sys::METIS_NodeNDP(
+            count,
             starts.as_mut_ptr(),
             neighbours.as_mut_ptr(),
             weights.as_mut_ptr(),
+            1,
             options.as_mut_ptr(),
             order.as_mut_ptr(),
             place.as_mut_ptr(),
+            sizes.as_mut_ptr(),
         )
     };
     let found: Vec<usize> = order.iter().map(|&old| old as usize).collect();

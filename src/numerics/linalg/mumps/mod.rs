@@ -288,16 +288,19 @@ fn told(Failure(code, detail): Failure, order: usize, way: Way) -> LinalgError {
             "its files cannot be written or read (INFO {code}); expected some GB for each million unknowns on the disk of {}; set MUMPS_OOC_TMPDIR to a larger one",
             files::root().display()
         )),
+        -92 => refused(format!(
+            "its thread for files cannot be started (INFO {code}); free memory, or raise the limits of memory and threads (ulimit -v, -d, -u)"
+        )),
         -5 | -7 | -13 | -22 => {
             // in units of entries, or of millions of them
             let entries = if detail < 0 { 1_000_000 * i64::from(detail).unsigned_abs() } else { detail as u64 };
             refused(format!(
-                "{} more of memory are not there (INFO {code}); free memory, raise its limit (ulimit -v), use more processes (mpirun), or a coarser mesh",
+                "{} more of memory are not there (INFO {code}); free memory, raise its limit (ulimit -v, -d), use more processes (mpirun), or a coarser mesh",
                 gigabytes(4 * entries)
             ))
         }
         -8 | -9 | -11 | -14 | -15 | -20..=-17 => refused(format!(
-            "its memory does not suffice (INFO {code}, {detail}); free memory, raise its limit (ulimit -v), use more processes (mpirun), or a coarser mesh"
+            "its memory does not suffice (INFO {code}, {detail}); free memory, raise its limit (ulimit -v, -d), use more processes (mpirun), or a coarser mesh"
         )),
         _ => refused(format!("INFO {code}, {detail}; see the users' guide of MUMPS, section 8")),
     }

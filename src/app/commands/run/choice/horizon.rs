@@ -39,7 +39,8 @@ pub enum Covered {
 /// How long an estimated error was seen to hold, s from [`from_s`](Self::from_s).
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Horizon {
-    /// Where it was looked at, s: from the start of a run that is as short as the looks, else where the pilot begins.
+    /// From where it was looked at, s: the run's start, unless its first strike is further off than a look is long; then a stretch
+    /// from rest just before a strike.
     pub from_s: f64,
     /// Until then the difference from the finer run since there was at most two thirds of the estimate, since that errs as well; 0 where it never was.
     pub held_s: f64,
@@ -82,14 +83,18 @@ impl Horizon {
                 return Some(Self { from_s, held_s: looked_s, looked_s, start_s, run_s, strikes: false, growth });
             }
         }
-        let first_s = stretch_s(asked, band_hz);
-        let longest_s = (LENGTHS[1] * first_s).min(run_s);
-        let from_s = long_begin(asked, scene, LENGTHS[1] * first_s);
-        let growth = growth(from_s, longest_s);
+        let stretch_s = stretch_s(asked, band_hz);
+        let longest_s = LENGTHS[1] * stretch_s;
+        let strike_s = long_begin(asked, scene, longest_s);
+        // what the run has become by then only the run itself knows: a look that reaches the strike begins with it
+        let (from_s, quiet_s) =
+            if strike_s - start_s <= longest_s { (start_s, strike_s - start_s) } else { (strike_s, 0.0) };
+        let first_s = quiet_s + stretch_s;
+        let growth = growth(from_s, (quiet_s + longest_s).min(run_s));
         let covered_s = growth.as_ref().map_or(0.0, |growth| growth.time_s(COVERED)).max(first_s);
         let mut horizon = None;
         for length in LENGTHS {
-            let looked_s = (length * first_s).min(run_s);
+            let looked_s = (quiet_s + length * stretch_s).min(run_s);
             let Ok(signals) = compared(scene, [&model, &finer], span(looked_s), from_s, band_hz) else {
                 break;
             };
@@ -128,11 +133,9 @@ impl Horizon {
         let ms = |seconds: f64| format!("{} ms", significant(1e3 * seconds, 3));
         let covered = match self.from_s > self.start_s {
             true => {
-                let until = |begin: f64, length: f64| {
-                    format!("{} to {}", Brief::rounded(begin, 6), Brief::rounded(begin + length, 6))
-                };
-                let [part, whole] = [until(self.from_s, self.held_s), until(self.start_s, self.run_s)];
-                format!("{part} s of the run's {whole} s")
+                let [from, start, end] = [self.from_s, self.start_s, self.start_s + self.run_s];
+                let [from, start, end] = [from, start, end].map(|instant| Brief::rounded(instant, 6));
+                format!("a trial of {} from rest at {from} s (the run: {start} to {end} s)", ms(self.held_s))
             }
             false => format!("{} of the run's {}", ms(self.held_s), ms(self.run_s)),
         };
@@ -165,7 +168,7 @@ impl Horizon {
         };
         let held = ms(self.held_s);
         let place = match self.from_s > self.start_s {
-            true => format!("for {held} ms from {} ms on", precise(self.from_s)),
+            true => format!("for {held} ms of a trial from rest at {} ms", precise(self.from_s)),
             false => format!("in the first {held} ms of {whole}"),
         };
         match (self.passed(), self.looked_s < self.run_s) {
@@ -298,7 +301,20 @@ mod tests {
         assert_eq!((horizon.covers(Some(0.01)), horizon.warning(Some(0.01))), (Covered::All, None));
         assert_eq!([None, Some(1.0)].map(|error| horizon.covers(error)), [Covered::Nothing; 2]);
         let short = Horizon { start_s: 0.0, from_s: 2.58, held_s: 1e-3, strikes: true, ..longer };
-        assert!(short.sentence().starts_with("for 1.0 ms from 2580 ms on; after that"), "{}", short.sentence());
+        assert!(
+            short.sentence().starts_with("for 1.0 ms of a trial from rest at 2580 ms; after that"),
+            "{}",
+            short.sentence()
+        );
+    }
+
+    /// The first strike is 1.5 ms after the start of a run that is longer than the looks.
+    #[test]
+    fn a_run_that_strikes_soon_is_looked_at_from_its_start() {
+        let soon = horizon("scenes/impact", &["transient.end=0.1", "analysis.envelope=[]"]);
+        assert_eq!((soon.from_s, soon.start_s), (0.0, 0.0), "{soon:?}");
+        let late = horizon("tadina2011/outer-dent", &[]);
+        assert!(late.from_s > late.start_s + 0.02, "{late:?}");
     }
 
     #[test]
@@ -313,7 +329,10 @@ mod tests {
             growth: None,
         };
         let warning = late.warning(Some(0.01)).unwrap();
-        assert!(warning.contains("0.010 covers 2.58 to 2.582 s of the run's 2.2 to 2.6 s: beyond"), "{warning}");
+        assert!(
+            warning.contains("0.010 covers a trial of 2.00 ms from rest at 2.58 s (the run: 2.2 to 2.6 s): beyond"),
+            "{warning}"
+        );
         let first = Horizon { from_s: 2.2, ..late }.warning(Some(0.01)).unwrap();
         assert!(first.contains("covers 2.00 ms of the run's 400 ms: beyond"), "{first}");
     }
