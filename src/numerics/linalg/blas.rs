@@ -8,7 +8,7 @@
 //! **Limitations**: two computations that begin BLAS's work at the same time secure one buffer between them.
 
 use super::{LinalgError, loaded};
-use std::ffi::{c_double, c_int};
+use std::ffi::{c_double, c_int, c_void};
 use std::hint::black_box;
 use std::mem::transmute;
 use std::sync::{Mutex, PoisonError};
@@ -19,25 +19,27 @@ const BUFFER: usize = (128 << 20) + (1 << 20);
 /// Threads whose buffers are known to be there, the caller's own among them.
 static SECURED: Mutex<usize> = Mutex::new(0);
 
+/// `cblas_dsyrk`: order, triangle, transposition, n, k, alpha, A, its columns' distance, beta, C, its columns' distance.
+type Product = unsafe extern "C" fn(
+    c_int,
+    c_int,
+    c_int,
+    c_int,
+    c_int,
+    c_double,
+    *const c_double,
+    c_int,
+    c_double,
+    *mut c_double,
+    c_int,
+);
+
 /// OpenBLAS's calls.
 #[derive(Debug, Clone, Copy)]
 struct OpenBlas {
     get: unsafe extern "C" fn() -> c_int,
     set: unsafe extern "C" fn(c_int),
-    /// `cblas_dsyrk`: order, triangle, transposition, n, k, alpha, A, its columns' distance, beta, C, its columns' distance.
-    product: unsafe extern "C" fn(
-        c_int,
-        c_int,
-        c_int,
-        c_int,
-        c_int,
-        c_double,
-        *const c_double,
-        c_int,
-        c_double,
-        *mut c_double,
-        c_int,
-    ),
+    product: Product,
 }
 
 impl OpenBlas {
@@ -48,9 +50,9 @@ impl OpenBlas {
         // SAFETY: functions of these names have had these signatures since OpenBLAS has had them.
         unsafe {
             Some(Self {
-                get: transmute::<*mut _, unsafe extern "C" fn() -> c_int>(get?.as_ptr()),
-                set: transmute::<*mut _, unsafe extern "C" fn(c_int)>(set?.as_ptr()),
-                product: transmute::<*mut _, _>(product?.as_ptr()),
+                get: transmute::<*mut c_void, unsafe extern "C" fn() -> c_int>(get?.as_ptr()),
+                set: transmute::<*mut c_void, unsafe extern "C" fn(c_int)>(set?.as_ptr()),
+                product: transmute::<*mut c_void, Product>(product?.as_ptr()),
             })
         }
     }

@@ -83,18 +83,17 @@ impl Horizon {
                 return Some(Self { from_s, held_s: looked_s, looked_s, start_s, run_s, strikes: false, growth });
             }
         }
-        let stretch_s = stretch_s(asked, band_hz);
-        let longest_s = LENGTHS[1] * stretch_s;
+        let first_s = stretch_s(asked, band_hz);
+        let longest_s = LENGTHS[1] * first_s;
         let strike_s = long_begin(asked, scene, longest_s);
         // what the run has become by then only the run itself knows: a look that reaches the strike begins with it
         let (from_s, quiet_s) =
             if strike_s - start_s <= longest_s { (start_s, strike_s - start_s) } else { (strike_s, 0.0) };
-        let first_s = quiet_s + stretch_s;
         let growth = growth(from_s, (quiet_s + longest_s).min(run_s));
         let covered_s = growth.as_ref().map_or(0.0, |growth| growth.time_s(COVERED)).max(first_s);
         let mut horizon = None;
         for length in LENGTHS {
-            let looked_s = (quiet_s + length * stretch_s).min(run_s);
+            let looked_s = (quiet_s + length * first_s).min(run_s);
             let Ok(signals) = compared(scene, [&model, &finer], span(looked_s), from_s, band_hz) else {
                 break;
             };
