@@ -145,6 +145,12 @@ fn a_full_standard_output_is_an_error_and_a_closed_one_is_none() {
             .status()
             .unwrap();
         assert_eq!(status.code(), expected, "{target}");
+        let help = Command::new(env!("CARGO_BIN_EXE_plummer"))
+            .arg("--help")
+            .stdout(fs::OpenOptions::new().write(true).open(target).unwrap())
+            .stderr(Stdio::null())
+            .status();
+        assert_eq!(help.unwrap().code(), expected, "{target}");
     }
     let out = scratch("stdout-closed");
     let words = format!(

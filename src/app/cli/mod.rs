@@ -43,6 +43,7 @@ use arguments::{typed, word};
 pub use dataset::DatasetArguments;
 use earlier_results::{left_in, lost_with, result_of};
 pub use failure::CliError;
+use output::printed;
 pub use output::{Outcome, OutputFolder};
 pub(crate) use output::{emit, write_atomic};
 pub use progress::Progress;
@@ -110,11 +111,11 @@ fn on_arguments() -> u8 {
     let arguments = match Arguments::try_parse_from([OsString::from("plummer")].into_iter().chain(words)) {
         Ok(arguments) => arguments,
         Err(error) => {
-            // Help or version to a pipe that was closed is no failure.
             let text = error.render().to_string();
             let short = cut(&text);
-            let _ = if short == text { error.print() } else { writeln!(io::stderr(), "{short}") };
-            return u8::try_from(error.exit_code()).unwrap_or(2);
+            let written = if short == text { error.print() } else { writeln!(io::stderr(), "{short}") };
+            let code = u8::try_from(error.exit_code()).unwrap_or(2);
+            return if code == 0 { printed(written).map_or_else(|error| told(&error), |()| 0) } else { code };
         }
     };
     match failure::catch_interrupts().and_then(|()| execute(&arguments, &mut io::stdout().lock())) {
