@@ -136,6 +136,7 @@ fn files_that_cannot_be_written_are_told() {
 #[test]
 fn mumps_steps_in_where_a_limit_of_the_process_is_too_low() {
     let folder = tempfile::tempdir().expect("a folder");
+    // so large that MUMPS out of core needs less than our own factor even beside OpenBLAS's and MPI's libraries
     let (edge, mut nodes, mut elements) = (28, String::new(), String::new());
     let number = |x: usize, y: usize, z: usize| 1 + x + (edge + 1) * (y + (edge + 1) * z);
     for (z, y, x) in cells(edge + 1) {
